@@ -1,0 +1,2 @@
+//! Runs the jobs of octruss.
+fn main() {}
