@@ -1,0 +1,115 @@
+//! Why bytes are no bundle, or not the one that was wanted.
+
+use core::fmt;
+
+/// Why a bundle cannot be opened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum BundleError {
+    /// This machine is big-endian; a bundle is read in place and is little-endian.
+    ByteOrder,
+    /// The first byte does not lie on a multiple of [`ALIGNMENT`](super::ALIGNMENT):
+    /// [`include_bundle!`](crate::include_bundle) does that.
+    Unaligned,
+    /// Shorter than its header says, or than a header.
+    Truncated {
+        /// Bytes needed.
+        needed: usize,
+        /// Bytes given.
+        given: usize,
+    },
+    /// Longer than its header says.
+    TrailingBytes {
+        /// Bytes of the bundle.
+        needed: usize,
+        /// Bytes given.
+        given: usize,
+    },
+    /// The first bytes are not those of a bundle.
+    Magic,
+    /// Another version of the format: bake the table again with this version of the tools.
+    Version {
+        /// The bundle's version.
+        found: u32,
+    },
+    /// The bytes were changed after they were written.
+    Checksum {
+        /// What the header says.
+        stored: u32,
+        /// What the bytes give.
+        computed: u32,
+    },
+    /// A field of the header, or the padding, has a value that no baker writes.
+    Header,
+    /// A row's first tap lies before that of the row above, or past the last tap.
+    RowStart {
+        /// The row.
+        row: u32,
+    },
+    /// A row names a control point that does not exist.
+    ControlPoint {
+        /// The row.
+        row: u32,
+    },
+    /// A row's weights do not add up to one, or their magnitudes to more than two.
+    Weights {
+        /// The row.
+        row: u32,
+    },
+    /// A residual is larger than [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT).
+    Residual {
+        /// The row.
+        row: u32,
+    },
+    /// The coordinate format is not the one that the program uses.
+    FractionBits {
+        /// Fraction bits of the bundle.
+        bundle: u32,
+        /// Fraction bits of the program's type.
+        wanted: u32,
+    },
+}
+
+impl fmt::Display for BundleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ByteOrder => f.write_str("a bundle cannot be read in place on a big-endian machine"),
+            Self::Unaligned => f.write_str(
+                "the bundle does not start on a multiple of 8 bytes: include it with include_bundle!",
+            ),
+            Self::Truncated { needed, given } => {
+                write!(f, "the bundle is cut short: {given} bytes of {needed}")
+            }
+            Self::TrailingBytes { needed, given } => {
+                write!(f, "{given} bytes were given, but the bundle ends after {needed}")
+            }
+            Self::Magic => f.write_str("these bytes are no octruss bundle"),
+            Self::Version { found } => write!(
+                f,
+                "the bundle has version {found}, this library reads version {}: bake it again",
+                super::VERSION
+            ),
+            Self::Checksum { stored, computed } => write!(
+                f,
+                "the bundle is damaged: its checksum is {stored:08x}, its bytes give {computed:08x}"
+            ),
+            Self::Header => f.write_str("the bundle's header holds a value that no baker writes"),
+            Self::RowStart { row } => write!(f, "the taps of row {row} lie outside the table"),
+            Self::ControlPoint { row } => {
+                write!(f, "row {row} names a control point that does not exist")
+            }
+            Self::Weights { row } => write!(
+                f,
+                "the weights of row {row} do not add up to one, or their magnitudes to more than two"
+            ),
+            Self::Residual { row } => write!(f, "the residual of row {row} is too large"),
+            Self::FractionBits { bundle, wanted } => write!(
+                f,
+                "the bundle's coordinates have {bundle} fraction bits, the program's {wanted}: \
+                 bake it again with --fraction-bits {wanted}, or use the other type"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for BundleError {}

@@ -1,0 +1,205 @@
+//! The numbering of the vertices that a split adds.
+
+use super::error::{Arena, MeshError, Part};
+use super::view::Solid;
+use super::{OCTAHEDRON_EDGES, TETRAHEDRON_EDGES};
+
+/// How many edges the scratch of [`Numbering::new`] must hold: six for each tetrahedron and
+/// twelve for each octahedron, shared ones counted every time. `None` if that does not fit.
+#[must_use]
+pub fn edge_capacity(solid: &Solid<'_>) -> Option<usize> {
+    let tetrahedra = solid.tetrahedra.len().checked_mul(6)?;
+    solid
+        .octahedra
+        .len()
+        .checked_mul(12)?
+        .checked_add(tetrahedra)
+}
+
+/// The vertices of a split: which index the midpoint of an edge and the centroid of an
+/// octahedron get.
+///
+/// Old vertices keep their index; then come edge midpoints by ascending pair of their ends; then
+/// octahedron centroids by ascending sorted corners (octahedra with the same corners by their
+/// place in the list).
+#[derive(Clone, Copy, Debug)]
+pub struct Numbering<'a> {
+    old: u32,
+    edges: &'a [[u32; 2]],
+    octahedra: &'a [u32],
+}
+
+impl<'a> Numbering<'a> {
+    /// Numbers the vertices of the split of `solid`.
+    ///
+    /// `edges` must hold [`edge_capacity`] pairs, `octahedra` one index for each octahedron. The
+    /// time is that of sorting them.
+    ///
+    /// # Errors
+    ///
+    /// Any error of [`Solid::check`]; [`MeshError::ArenaTooSmall`], which leaves both arenas
+    /// untouched; [`MeshError::NotAnEdge`] if a surface triangle or a crease does not run along
+    /// edges of cells.
+    pub fn new(
+        solid: &Solid<'_>,
+        edges: &'a mut [[u32; 2]],
+        octahedra: &'a mut [u32],
+    ) -> Result<Self, MeshError> {
+        solid.check()?;
+        let edges_needed = edge_capacity(solid).ok_or(MeshError::TooLarge)?;
+        let octahedra_needed = solid.octahedra.len();
+        require(Arena::Edges, edges_needed, edges.len())?;
+        require(Arena::OctahedronOrder, octahedra_needed, octahedra.len())?;
+
+        let numbering = Self {
+            old: solid.vertex_count,
+            edges: unique_edges(solid, edges.get_mut(..edges_needed).unwrap_or_default()),
+            octahedra: order(
+                solid,
+                octahedra.get_mut(..octahedra_needed).unwrap_or_default(),
+            ),
+        };
+        let new = numbering
+            .edges
+            .len()
+            .checked_add(octahedra_needed)
+            .ok_or(MeshError::TooLarge)?;
+        u32::try_from(new)
+            .ok()
+            .and_then(|new| new.checked_add(solid.vertex_count))
+            .ok_or(MeshError::TooLarge)?;
+        numbering.check_edges(solid)?;
+        Ok(numbering)
+    }
+
+    /// Number of vertices before the split.
+    #[must_use]
+    pub fn old_count(&self) -> u32 {
+        self.old
+    }
+
+    /// Number of vertices after the split.
+    #[must_use]
+    pub fn vertex_count(&self) -> u32 {
+        self.old
+            .wrapping_add(length(self.edges))
+            .wrapping_add(length(self.octahedra))
+    }
+
+    /// All edges in the order of their midpoints, ends ascending.
+    #[must_use]
+    pub fn edges(&self) -> &'a [[u32; 2]] {
+        self.edges
+    }
+
+    /// Index of the midpoint of the edge from `a` to `b`, if that is an edge.
+    #[must_use]
+    pub fn midpoint(&self, a: u32, b: u32) -> Option<u32> {
+        let place = self.edges.binary_search(&[a.min(b), a.max(b)]).ok()?;
+        self.old.checked_add(u32::try_from(place).ok()?)
+    }
+
+    /// Every octahedron's place in the solid's list with the index of its centroid, in the order
+    /// of the centroids.
+    pub fn centroids(&self) -> impl Iterator<Item = (usize, u32)> + use<'a> {
+        let first = self.old.wrapping_add(length(self.edges));
+        self.octahedra
+            .iter()
+            .zip(first..)
+            .filter_map(|(&place, vertex)| Some((usize::try_from(place).ok()?, vertex)))
+    }
+
+    fn check_edges(&self, solid: &Solid<'_>) -> Result<(), MeshError> {
+        for (index, &[a, b, c]) in solid.surface.iter().enumerate() {
+            for edge in [[a, b], [b, c], [c, a]] {
+                self.check_edge(Part::SurfaceTriangle, index, edge)?;
+            }
+        }
+        for (index, &edge) in solid.creases.iter().enumerate() {
+            self.check_edge(Part::Crease, index, edge)?;
+        }
+        Ok(())
+    }
+
+    fn check_edge(&self, part: Part, index: usize, edge: [u32; 2]) -> Result<(), MeshError> {
+        let [a, b] = edge;
+        match self.midpoint(a, b) {
+            Some(_) => Ok(()),
+            None => Err(MeshError::NotAnEdge { part, index, edge }),
+        }
+    }
+}
+
+/// Refuses an arena that holds less than `needed`.
+pub(crate) fn require(arena: Arena, needed: usize, given: usize) -> Result<(), MeshError> {
+    if given < needed {
+        Err(MeshError::ArenaTooSmall {
+            arena,
+            needed,
+            given,
+        })
+    } else {
+        Ok(())
+    }
+}
+
+/// The length of a list whose total was checked to fit 32 bits.
+fn length<T>(list: &[T]) -> u32 {
+    u32::try_from(list.len()).unwrap_or(u32::MAX)
+}
+
+/// Fills `arena` with the edges of all cells, sorts them and drops repetitions.
+fn unique_edges<'a>(solid: &Solid<'_>, arena: &'a mut [[u32; 2]]) -> &'a [[u32; 2]] {
+    let of_tetrahedra = solid
+        .tetrahedra
+        .iter()
+        .flat_map(|cell| edges_of(cell, &TETRAHEDRON_EDGES));
+    let of_octahedra = solid
+        .octahedra
+        .iter()
+        .flat_map(|cell| edges_of(cell, &OCTAHEDRON_EDGES));
+    for (slot, edge) in arena.iter_mut().zip(of_tetrahedra.chain(of_octahedra)) {
+        *slot = edge;
+    }
+    arena.sort_unstable();
+    let mut kept = 0_usize;
+    for place in 0..arena.len() {
+        let Some(&edge) = arena.get(place) else { break };
+        let last = kept.checked_sub(1).and_then(|last| arena.get(last));
+        if last == Some(&edge) {
+            continue;
+        }
+        if let Some(slot) = arena.get_mut(kept) {
+            *slot = edge;
+            kept = kept.saturating_add(1);
+        }
+    }
+    arena.get(..kept).unwrap_or_default()
+}
+
+fn edges_of<const N: usize>(
+    cell: &[u32; N],
+    edges: &'static [[usize; 2]],
+) -> impl Iterator<Item = [u32; 2]> {
+    let corner = |slot: usize| cell.get(slot).copied().unwrap_or_default();
+    edges.iter().map(move |&[a, b]| {
+        let (a, b) = (corner(a), corner(b));
+        [a.min(b), a.max(b)]
+    })
+}
+
+/// Fills `arena` with the places of the octahedra, sorted by their sorted corners.
+fn order<'a>(solid: &Solid<'_>, arena: &'a mut [u32]) -> &'a [u32] {
+    for (slot, place) in arena.iter_mut().zip(0..) {
+        *slot = place;
+    }
+    arena.sort_unstable_by_key(|&place| {
+        let cell = usize::try_from(place)
+            .ok()
+            .and_then(|place| solid.octahedra.get(place));
+        let mut corners = cell.copied().unwrap_or_default();
+        corners.sort_unstable();
+        (corners, place)
+    });
+    arena
+}

@@ -1,0 +1,8 @@
+//! Subdivision of solids.
+//!
+//! Each scheme is a file with two operations: a *split*, which makes the connectivity of the next
+//! level, and a *refinement of points*, which computes values for its vertices. They are apart so
+//! that any number of values (coordinates, material channels, sparse rows) can be refined over
+//! one numbering, and so that the last level can do without its cells.
+
+pub mod tet_oct;
