@@ -1,0 +1,349 @@
+#!/usr/bin/env python3
+"""Remakes the example of this folder: the cage, the skin and the motion of a soft gripper finger.
+
+Needs Python 3.9 or newer and Gmsh 4 (`pip install gmsh`). Run it anywhere; it writes beside itself:
+
+    finger.msh         the cage from finger.geo, Gmsh MSH 4.1, ASCII
+    finger-22.msh      the same cage, Gmsh MSH 2.2, ASCII
+    finger.obj         the skin, quadrilaterals with texture coordinates and groups
+    finger-motion.csv  all control points for each frame of a motion
+
+Unit: millimetre. The finger stands on its base and points along +z; +y is the gripping side, -y
+the back with the bellows.
+"""
+
+import math
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+
+
+# The skin --------------------------------------------------------------------------------------
+#
+# The skin is a stack of closed rows of ROW vertices. Row by row the section is a rounded rectangle;
+# at both ends concentric square loops of 8, 16, .. vertices fill the last row, so that every face
+# is a quadrilateral.
+
+SIDE = 12  # vertices along one side of a section, from corner to corner
+ROW = 4 * SIDE  # vertices in a row
+LOOPS = SIDE // 2  # loops that fill an end
+
+FLANGE_TOP = 7.0  # height of the mounting flange at the base
+BODY_FOOT = 9.0  # where the bellows begin
+BODY_HEAD = 89.0  # where they end and the fingertip begins
+TIP_TOP = 100.0  # height of the finger
+RIBS = 8
+
+# Rows of one rib, as parts of its length: dense in the slot (0 and 1) and at the crest's shoulders.
+RIB_ROWS = (0.0, 0.05, 0.10, 0.16, 0.25, 0.40, 0.50, 0.60, 0.75, 0.84, 0.90, 0.95)
+
+
+def smooth_step(low, high, value):
+    """0 below `low`, 1 above `high`, and a curve without kinks between."""
+    t = min(1.0, max(0.0, (value - low) / (high - low)))
+    return t * t * t * (t * (6.0 * t - 15.0) + 10.0)
+
+
+def rounded_rectangle(fraction, half_x, half_y, radius):
+    """The point at `fraction` (0 to 1) round a rounded rectangle, counter-clockwise from the corner
+    (-x, -y). A quarter of the way belongs to each side, half of that to its two half corners."""
+    side, t = divmod(fraction * 4.0, 1.0)
+    side = int(side) % 4
+    along, across = (half_x, half_y) if side % 2 == 0 else (half_y, half_x)
+    if t < 0.25:
+        angle = math.radians(45.0 - 180.0 * t)
+        u, v = -along + radius - radius * math.sin(angle), -across + radius - radius * math.cos(angle)
+    elif t <= 0.75:
+        u, v = (along - radius) * (4.0 * t - 2.0), -across
+    else:
+        angle = math.radians(180.0 * (t - 0.75))
+        u, v = along - radius + radius * math.sin(angle), -across + radius - radius * math.cos(angle)
+    return ((u, v), (-v, u), (-u, -v), (v, -u))[side]
+
+
+def half_section(z):
+    """Half width, half depth and corner radius of the body at height `z`."""
+    t = z / TIP_TOP
+    return 12.2 - 4.4 * t, 10.4 - 3.4 * t, 4.2 - 0.9 * t
+
+
+def section_point(fraction, z, slot, groove):
+    """A point of the body. `slot` (0 to 1) is how deep the bellows' slot cuts into back and sides
+    here, `groove` (0 to 1) how deep the shallow groove of the gripping face is."""
+    half_x, half_y, radius = half_section(z)
+    x, y = rounded_rectangle(fraction, half_x, half_y, radius)
+    hinge = 0.3 * half_y  # the gripping side of this line is not folded
+    if y < hinge:
+        x *= 1.0 - 0.17 * slot * smooth_step(0.0, 0.7 * half_y, hinge - y)
+        y = hinge + (y - hinge) * (1.0 - 0.42 * slot)
+    else:
+        y -= 0.45 * groove * smooth_step(0.55 * half_y, 0.98 * half_y, y)
+    return x, y, z
+
+
+def rib_profile(part):
+    """Slot and groove at `part` (0 to 1) of a rib: a slot at both ends, a groove at ends and middle."""
+    from_end = min(part, 1.0 - part)
+    slot = 1.0 - smooth_step(0.02, 0.2, from_end)
+    groove = 1.0 - smooth_step(0.0, 0.09, min(from_end, abs(part - 0.5)))
+    return slot, groove
+
+
+def base_rows():
+    """The flange: a slab with rounded edges, wider than the body."""
+    rows = []
+    for z, inset in ((0.0, 0.7), (0.2, 0.25), (0.7, 0.0), (3.5, 0.0), (6.3, 0.0), (6.8, 0.25)):
+        rows.append([(*rounded_rectangle(j / ROW, 13.0 - inset, 11.0 - inset, 4.0 - inset), z)
+                     for j in range(ROW)])
+    half_x, half_y, radius = half_section(FLANGE_TOP)
+    for z, grow in ((FLANGE_TOP, 0.3), (FLANGE_TOP + 0.4, 0.0)):
+        rows.append([(*rounded_rectangle(j / ROW, half_x + grow, half_y + grow, radius + grow), z)
+                     for j in range(ROW)])
+    return rows
+
+
+def body_rows():
+    """The bellows: ribs on the back, a lightly grooved gripping face."""
+    rows = []
+    pitch = (BODY_HEAD - BODY_FOOT) / RIBS
+    for rib in range(RIBS):
+        for part in RIB_ROWS:
+            slot, groove = rib_profile(part)
+            if rib == 0 and part < 0.5:
+                slot = groove = 0.0  # the first rib grows out of the flange
+            z = BODY_FOOT + (rib + part) * pitch
+            rows.append([section_point(j / ROW, z, slot, groove) for j in range(ROW)])
+    return rows
+
+
+def tip_point(fraction, scale):
+    """A point of the fingertip: the section shrunk by `scale` (1 to 0), raised to a dome whose top
+    lies nearer to the gripping side than the middle."""
+    z = BODY_HEAD + (TIP_TOP - BODY_HEAD) * (1.0 - scale**2.6) ** (1.0 / 2.6)
+    half_x, half_y, radius = half_section(z)
+    x, y = rounded_rectangle(fraction, half_x, half_y, radius + (half_y - radius) * 0.6 * (1.0 - scale))
+    return x * scale, y * scale + 0.3 * half_y * (1.0 - scale), z
+
+
+TIP_SCALES = (1.0, 0.995, 0.975, 0.94, 0.885)  # of the rows below the loops
+TIP_LOOP_SCALE = 0.81  # of the outermost loop
+
+
+def end_loops(place):
+    """Loops from the centre outwards: `place(fraction, part)` for loop k of 8 k vertices, with part
+    k / LOOPS; the centre is a loop of one vertex. The outermost loop is a row and is left out."""
+    loops = [[place(0.0, 0.0)]]
+    for k in range(1, LOOPS):
+        loops.append([place(j / (8 * k), k / LOOPS) for j in range(8 * k)])
+    return loops
+
+
+class Skin:
+    """Vertices, texture coordinates and faces by group, as an OBJ file wants them."""
+
+    def __init__(self):
+        self.positions = []
+        self.textures = []
+        self.groups = {"base": [], "body": [], "tip": []}
+
+    def add_row(self, row):
+        """Adds the vertices of a row and returns their indices."""
+        first = len(self.positions)
+        self.positions.extend(row)
+        return list(range(first, len(self.positions)))
+
+    def add_texture(self, u, v):
+        """Adds a texture coordinate and returns its index."""
+        self.textures.append((u, v))
+        return len(self.textures) - 1
+
+    def join_rows(self, group, lower, upper):
+        """Quadrilaterals between two rows, each a pair (vertex indices, texture indices); a row has
+        one texture coordinate more than vertices, because the seam has two."""
+        for j in range(ROW):
+            k = (j + 1) % ROW
+            corners = ((lower, j, j), (lower, k, j + 1), (upper, k, j + 1), (upper, j, j))
+            self.groups[group].append([(row[0][v], row[1][t]) for row, v, t in corners])
+
+    def fill_end(self, group, loops, rim, flat, upward):
+        """Quadrilaterals of a square grid whose loops round the centre are `loops` and, outermost, the
+        row of vertex indices `rim`. `flat` maps the grid's square to texture space."""
+        vertex = {}
+        texture = {}
+        for k in range(LOOPS + 1):
+            indices = rim if k == LOOPS else self.add_row(loops[k])
+            for cell, index in zip(loop_cells(k), indices):
+                vertex[cell] = index
+                texture[cell] = self.add_texture(*flat(cell[0] / LOOPS, cell[1] / LOOPS))
+        for y in range(-LOOPS, LOOPS):
+            for x in range(-LOOPS, LOOPS):
+                face = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]
+                if not upward:
+                    face.reverse()
+                self.groups[group].append([(vertex[cell], texture[cell]) for cell in face])
+
+
+def loop_cells(k):
+    """Grid places (x, y) of loop k round the centre, counter-clockwise from (-k, -k)."""
+    if k == 0:
+        return [(0, 0)]
+    bottom = [(-k + j, -k) for j in range(2 * k)]
+    right = [(k, -k + j) for j in range(2 * k)]
+    return bottom + right + [(-x, -y) for x, y in bottom] + [(-x, -y) for x, y in right]
+
+
+def make_skin():
+    """The whole skin: base loops, rows from base to tip, tip loops."""
+    skin = Skin()
+    base, body = base_rows(), body_rows()
+    tip = [[tip_point(j / ROW, scale) for j in range(ROW)]
+           for scale in TIP_SCALES + (TIP_LOOP_SCALE,)]
+    rows = base + body + tip
+    indexed = []
+    for row in rows:
+        vertices = skin.add_row(row)
+        height = 0.02 + 0.7 * row[0][2] / TIP_TOP
+        indexed.append((vertices, [skin.add_texture(0.98 * j / ROW + 0.01, height) for j in range(ROW + 1)]))
+    for i in range(len(rows) - 1):
+        group = "base" if i < len(base) else "body" if i < len(base) + len(body) else "tip"
+        skin.join_rows(group, indexed[i], indexed[i + 1])
+    foot = [[(x * k / LOOPS, y * k / LOOPS, 0.0) for x, y, _ in
+             [(*rounded_rectangle(j / max(1, 8 * k), 12.3, 10.3, 3.3), 0.0) for j in range(max(1, 8 * k))]]
+            for k in range(LOOPS)]
+    skin.fill_end("base", foot, indexed[0][0], lambda x, y: (0.25 + 0.12 * x, 0.87 + 0.1 * y), False)
+    dome = end_loops(lambda fraction, part: tip_point(fraction, TIP_LOOP_SCALE * part))
+    skin.fill_end("tip", dome, indexed[-1][0], lambda x, y: (0.75 + 0.12 * x, 0.87 + 0.1 * y), True)
+    return skin
+
+
+def write_skin(skin, path):
+    """Writes an OBJ file: positions with at most four decimals, faces by group."""
+    lines = ["# Skin of a soft gripper finger, unit millimetre. Written by make_finger.py.",
+             "# Licence: MIT OR Apache-2.0", "o finger"]
+    lines += ["v " + " ".join(number(c) for c in p) for p in skin.positions]
+    lines += ["vt " + " ".join(number(c) for c in t) for t in skin.textures]
+    for name, faces in skin.groups.items():
+        lines += ["g " + name, "s 1"]
+        lines += ["f " + " ".join(f"{v + 1}/{t + 1}" for v, t in face) for face in faces]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
+def number(value):
+    """A number with at most four decimals, without trailing zeros or a negative zero."""
+    text = f"{value:.4f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+# The cage --------------------------------------------------------------------------------------
+
+
+def make_cage():
+    """Meshes finger.geo and writes both files; returns control points and tetrahedra (from 0)."""
+    import gmsh
+
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.option.setNumber("General.NumThreads", 1)
+        gmsh.option.setNumber("Mesh.RandomSeed", 1)
+        gmsh.option.setNumber("Mesh.Algorithm3D", 10)  # HXT
+        gmsh.option.setNumber("Mesh.Binary", 0)
+        gmsh.open(str(FOLDER / "finger.geo"))
+        gmsh.model.mesh.generate(3)
+        for version, name in ((4.1, "finger.msh"), (2.2, "finger-22.msh")):
+            gmsh.option.setNumber("Mesh.MshFileVersion", version)
+            gmsh.write(str(FOLDER / name))
+        tags, flat, _ = gmsh.model.mesh.getNodes()
+        place = {int(tag): tuple(flat[3 * i:3 * i + 3]) for i, tag in enumerate(tags)}
+        _, corners = gmsh.model.mesh.getElementsByType(4)
+    finally:
+        gmsh.finalize()
+    points = [tuple(map(float, place[tag])) for tag in sorted(place)]
+    cells = [tuple(int(t) - 1 for t in corners[i:i + 4]) for i in range(0, len(corners), 4)]
+    if sorted(place) != list(range(1, len(points) + 1)) or (len(points), len(cells)) != (72, 168):
+        raise SystemExit(f"finger.geo gave {len(points)} control points and {len(cells)} tetrahedra "
+                         "instead of 72 and 168: this Gmsh meshes it in another way, use 4.15")
+    return points, cells
+
+
+def signed_volume(points, cell):
+    """Six times the volume of a tetrahedron, positive for positive orientation."""
+    o, a, b, c = (points[i] for i in cell)
+    u, v, w = ([q[k] - o[k] for k in range(3)] for q in (a, b, c))
+    return (u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0])
+            + u[2] * (v[0] * w[1] - v[1] * w[0]))
+
+
+# The motion ------------------------------------------------------------------------------------
+#
+# A place on the axis turns by an angle that grows evenly from the first ring to the tip, so the
+# gripping face, which keeps its length, becomes an arc of a circle. Before that, sections twist
+# round the axis and are squeezed. All amounts vanish at the first and last frame.
+
+FRAMES = 32
+BEND_DEGREES = 70.0
+TWIST_DEGREES = 16.0
+SQUEEZE = 0.14
+BEND_FOOT = 4.0  # nothing below this height moves
+BEND_HEAD = 103.0  # here all amounts are reached
+GRIPPING_FACE = 8.0  # distance of the arc's layer from the axis, the mean of the gripping face
+
+
+def amounts(frame):
+    """Bend, twist and squeeze (parts of 1, twist with a sign) at a frame."""
+    t = frame / (FRAMES - 1)
+    bend = smooth_step(0.0, 0.45, t) - smooth_step(0.62, 1.0, t)
+    twist = (smooth_step(0.12, 0.4, t) - 2.0 * smooth_step(0.42, 0.72, t)
+             + smooth_step(0.74, 1.0, t))
+    squeeze = smooth_step(0.3, 0.52, t) - smooth_step(0.55, 0.8, t)
+    return bend, twist, squeeze
+
+
+def moved(point, bend, twist, squeeze):
+    """Where a control point goes."""
+    x, y, z = point
+    part = min(1.0, max(0.0, (z - BEND_FOOT) / (BEND_HEAD - BEND_FOOT)))
+    if part == 0.0:
+        return point
+    bulge = squeeze * SQUEEZE * math.sin(math.pi * part) ** 2
+    x, y = x * (1.0 - bulge), y * (1.0 + 0.5 * bulge)
+    turn = math.radians(TWIST_DEGREES) * twist * part * part
+    x, y = x * math.cos(turn) - y * math.sin(turn), x * math.sin(turn) + y * math.cos(turn)
+    angle = math.radians(BEND_DEGREES) * bend * part
+    length = z - BEND_FOOT
+    # sin(a)/a and (1 - cos(a))/a, good for any small angle.
+    forward = math.sin(angle) / angle if angle > 1e-9 else 1.0
+    sideways = (1.0 - math.cos(angle)) / angle if angle > 1e-9 else 0.0
+    beyond = y - GRIPPING_FACE
+    return (x,
+            GRIPPING_FACE + length * sideways + beyond * math.cos(angle),
+            BEND_FOOT + length * forward - beyond * math.sin(angle))
+
+
+def write_motion(points, cells, path):
+    """Writes all control points for each frame, after a check that no cell turns inside out."""
+    lines = ["frame,point,x,y,z"]
+    for frame in range(FRAMES):
+        pose = [moved(point, *amounts(frame)) for point in points]
+        if min(signed_volume(pose, cell) for cell in cells) <= 0.0:
+            raise SystemExit(f"a tetrahedron of the cage turns inside out in frame {frame}")
+        if frame in (0, FRAMES - 1):
+            pose = points
+        lines += [f"{frame},{i}," + ",".join(number(c) for c in p) for i, p in enumerate(pose)]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
+def main():
+    """Writes all files and says what they hold."""
+    points, cells = make_cage()
+    skin = make_skin()
+    write_skin(skin, FOLDER / "finger.obj")
+    write_motion(points, cells, FOLDER / "finger-motion.csv")
+    faces = sum(len(group) for group in skin.groups.values())
+    print(f"cage: {len(points)} control points, {len(cells)} tetrahedra")
+    print(f"skin: {len(skin.positions)} vertices, {faces} quadrilaterals")
+    print(f"motion: {FRAMES} frames")
+
+
+if __name__ == "__main__":
+    main()
