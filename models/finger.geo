@@ -7,15 +7,15 @@
 // tetrahedra. All curves have one segment, so that every point here is one control point, and
 // node 9 i + j + 1 of the mesh is point j of ring i.
 //
-// The diagonals of the wedges' sides are given (from the centre and from the middles of the sides
-// up to the corners), so the cage is its own mirror image in x = 0 and in y = 0 but for the cut,
-// and every interior edge is shared by at least four tetrahedra.
+// The diagonals of the wedges' sides are given: upwards from the centre to middles and corners, and
+// from middles to corners. So the cage is its own mirror image in x = 0 and in y = 0, there are no
+// slivers, and every interior edge is shared by at least four tetrahedra.
 
 SetFactory("Built-in");
 
-height[] = {-2, 16.5, 34, 50.5, 66, 80.5, 93, 103};
-half_width[] = {15.5, 15, 14.25, 13.5, 12.75, 12, 11.25, 10.5};
-half_depth[] = {13.5, 13, 12.25, 11.5, 11, 10.25, 9.75, 9};
+height[] = {-1.25, 16.5, 33.5, 49.5, 64.5, 78.5, 90.75, 101.5};
+half_width[] = {15, 14, 12.75, 12, 11.25, 10.5, 9.75, 9.25};
+half_depth[] = {13, 12, 11, 10.25, 9.75, 9.25, 8.75, 8.25};
 last = #height[] - 1;
 
 // Points. Ring i: corners and middles 9 i + 1 .. 9 i + 8, centre 9 i + 9.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Remakes the example of this folder: the cage, the skin and the motion of a soft gripper finger.
 
-Needs Python 3.9 or newer and Gmsh 4 (`pip install gmsh`). Run it anywhere; it writes beside itself:
+Needs Python 3.9 or newer and Gmsh 4 (`pip install gmsh`). It writes beside itself:
 
     finger.msh         the cage from finger.geo, Gmsh MSH 4.1, ASCII
     finger-22.msh      the same cage, Gmsh MSH 2.2, ASCII
@@ -13,6 +13,7 @@ the back with the bellows.
 """
 
 import math
+import os
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
@@ -28,14 +29,17 @@ SIDE = 12  # vertices along one side of a section, from corner to corner
 ROW = 4 * SIDE  # vertices in a row
 LOOPS = SIDE // 2  # loops that fill an end
 
-FLANGE_TOP = 7.0  # height of the mounting flange at the base
+FLANGE = (13.0, 11.0, 4.0)  # half width, half depth, corner radius of the mounting flange
+FLANGE_TOP = 7.0  # height of the flange
 BODY_FOOT = 9.0  # where the bellows begin
 BODY_HEAD = 89.0  # where they end and the fingertip begins
 TIP_TOP = 100.0  # height of the finger
-RIBS = 8
+FOLDS = 8  # slots of the bellows
 
-# Rows of one rib, as parts of its length: dense in the slot (0 and 1) and at the crest's shoulders.
-RIB_ROWS = (0.0, 0.05, 0.10, 0.16, 0.25, 0.40, 0.50, 0.60, 0.75, 0.84, 0.90, 0.95)
+# Rows of one fold, as parts of its length from its slot: dense in the slot and at its shoulders.
+FOLD_ROWS = (-0.5, -0.4, -0.25, -0.16, -0.1, -0.05, 0.0, 0.05, 0.1, 0.16, 0.25, 0.4)
+
+TIP_SCALES = (1.0, 0.995, 0.975, 0.94, 0.885, 0.81)  # of the fingertip's rows; loops fill the last
 
 
 def smooth_step(low, high, value):
@@ -81,20 +85,27 @@ def section_point(fraction, z, slot, groove):
     return x, y, z
 
 
-def rib_profile(part):
-    """Slot and groove at `part` (0 to 1) of a rib: a slot at both ends, a groove at ends and middle."""
-    from_end = min(part, 1.0 - part)
-    slot = 1.0 - smooth_step(0.02, 0.2, from_end)
-    groove = 1.0 - smooth_step(0.0, 0.09, min(from_end, abs(part - 0.5)))
+def fold_profile(part):
+    """Slot and groove at `part` (-0.5 to 0.5) of a fold: grooves lie at its slot and at its ends."""
+    distance = abs(part)
+    slot = 1.0 - smooth_step(0.02, 0.2, distance)
+    groove = 1.0 - smooth_step(0.0, 0.09, min(distance, 0.5 - distance))
     return slot, groove
+
+
+def flange_section(inset):
+    """The flange's outline, made smaller by `inset` on all sides."""
+    return tuple(measure - inset for measure in FLANGE)
+
+
+FOOT_INSET = 0.7  # of the flange's lowest row
 
 
 def base_rows():
     """The flange: a slab with rounded edges, wider than the body."""
     rows = []
-    for z, inset in ((0.0, 0.7), (0.2, 0.25), (0.7, 0.0), (3.5, 0.0), (6.3, 0.0), (6.8, 0.25)):
-        rows.append([(*rounded_rectangle(j / ROW, 13.0 - inset, 11.0 - inset, 4.0 - inset), z)
-                     for j in range(ROW)])
+    for z, inset in ((0.0, FOOT_INSET), (0.2, 0.25), (0.7, 0.0), (3.5, 0.0), (6.3, 0.0), (6.8, 0.25)):
+        rows.append([(*rounded_rectangle(j / ROW, *flange_section(inset)), z) for j in range(ROW)])
     half_x, half_y, radius = half_section(FLANGE_TOP)
     for z, grow in ((FLANGE_TOP, 0.3), (FLANGE_TOP + 0.4, 0.0)):
         rows.append([(*rounded_rectangle(j / ROW, half_x + grow, half_y + grow, radius + grow), z)
@@ -105,13 +116,11 @@ def base_rows():
 def body_rows():
     """The bellows: ribs on the back, a lightly grooved gripping face."""
     rows = []
-    pitch = (BODY_HEAD - BODY_FOOT) / RIBS
-    for rib in range(RIBS):
-        for part in RIB_ROWS:
-            slot, groove = rib_profile(part)
-            if rib == 0 and part < 0.5:
-                slot = groove = 0.0  # the first rib grows out of the flange
-            z = BODY_FOOT + (rib + part) * pitch
+    pitch = (BODY_HEAD - BODY_FOOT) / FOLDS
+    for fold in range(FOLDS):
+        for part in FOLD_ROWS:
+            slot, groove = fold_profile(part)
+            z = BODY_FOOT + (fold + 0.5 + part) * pitch
             rows.append([section_point(j / ROW, z, slot, groove) for j in range(ROW)])
     return rows
 
@@ -125,8 +134,10 @@ def tip_point(fraction, scale):
     return x * scale, y * scale + 0.3 * half_y * (1.0 - scale), z
 
 
-TIP_SCALES = (1.0, 0.995, 0.975, 0.94, 0.885)  # of the rows below the loops
-TIP_LOOP_SCALE = 0.81  # of the outermost loop
+def foot_point(fraction, part):
+    """A point of the flat underside, `part` (0 to 1) of the way from its centre to its lowest row."""
+    x, y = rounded_rectangle(fraction, *flange_section(FOOT_INSET))
+    return x * part, y * part, 0.0
 
 
 def end_loops(place):
@@ -165,16 +176,17 @@ class Skin:
             corners = ((lower, j, j), (lower, k, j + 1), (upper, k, j + 1), (upper, j, j))
             self.groups[group].append([(row[0][v], row[1][t]) for row, v, t in corners])
 
-    def fill_end(self, group, loops, rim, flat, upward):
+    def fill_end(self, group, loops, rim, texture_middle, upward):
         """Quadrilaterals of a square grid whose loops round the centre are `loops` and, outermost, the
-        row of vertex indices `rim`. `flat` maps the grid's square to texture space."""
+        row of vertex indices `rim`. The grid lies in texture space round u = `texture_middle`."""
         vertex = {}
         texture = {}
         for k in range(LOOPS + 1):
             indices = rim if k == LOOPS else self.add_row(loops[k])
             for cell, index in zip(loop_cells(k), indices):
                 vertex[cell] = index
-                texture[cell] = self.add_texture(*flat(cell[0] / LOOPS, cell[1] / LOOPS))
+                u = texture_middle + 0.12 * cell[0] / LOOPS
+                texture[cell] = self.add_texture(u, 0.87 + 0.1 * cell[1] / LOOPS)
         for y in range(-LOOPS, LOOPS):
             for x in range(-LOOPS, LOOPS):
                 face = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]
@@ -196,8 +208,7 @@ def make_skin():
     """The whole skin: base loops, rows from base to tip, tip loops."""
     skin = Skin()
     base, body = base_rows(), body_rows()
-    tip = [[tip_point(j / ROW, scale) for j in range(ROW)]
-           for scale in TIP_SCALES + (TIP_LOOP_SCALE,)]
+    tip = [[tip_point(j / ROW, scale) for j in range(ROW)] for scale in TIP_SCALES]
     rows = base + body + tip
     indexed = []
     for row in rows:
@@ -207,12 +218,10 @@ def make_skin():
     for i in range(len(rows) - 1):
         group = "base" if i < len(base) else "body" if i < len(base) + len(body) else "tip"
         skin.join_rows(group, indexed[i], indexed[i + 1])
-    foot = [[(x * k / LOOPS, y * k / LOOPS, 0.0) for x, y, _ in
-             [(*rounded_rectangle(j / max(1, 8 * k), 12.3, 10.3, 3.3), 0.0) for j in range(max(1, 8 * k))]]
-            for k in range(LOOPS)]
-    skin.fill_end("base", foot, indexed[0][0], lambda x, y: (0.25 + 0.12 * x, 0.87 + 0.1 * y), False)
-    dome = end_loops(lambda fraction, part: tip_point(fraction, TIP_LOOP_SCALE * part))
-    skin.fill_end("tip", dome, indexed[-1][0], lambda x, y: (0.75 + 0.12 * x, 0.87 + 0.1 * y), True)
+    foot = end_loops(foot_point)
+    dome = end_loops(lambda fraction, part: tip_point(fraction, TIP_SCALES[-1] * part))
+    skin.fill_end("base", foot, indexed[0][0], 0.25, upward=False)
+    skin.fill_end("tip", dome, indexed[-1][0], 0.75, upward=True)
     return skin
 
 
@@ -225,7 +234,15 @@ def write_skin(skin, path):
     for name, faces in skin.groups.items():
         lines += ["g " + name, "s 1"]
         lines += ["f " + " ".join(f"{v + 1}/{t + 1}" for v, t in face) for face in faces]
-    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+    write_whole(path, lines)
+
+
+def write_whole(path, lines):
+    """Writes a text file so that `path` never holds a part of it."""
+    part = path.with_name(path.name + ".part")
+    with open(part, "w", encoding="ascii", newline="\n") as file:
+        file.write("\n".join(lines) + "\n")
+    os.replace(part, path)
 
 
 def number(value):
@@ -239,8 +256,10 @@ def number(value):
 
 def make_cage():
     """Meshes finger.geo and writes both files; returns control points and tetrahedra (from 0)."""
-    import gmsh
-
+    try:
+        import gmsh
+    except ImportError:
+        raise SystemExit("the cage needs Gmsh's Python package: pip install gmsh") from None
     gmsh.initialize()
     try:
         gmsh.option.setNumber("General.Terminal", 0)
@@ -250,19 +269,30 @@ def make_cage():
         gmsh.option.setNumber("Mesh.Binary", 0)
         gmsh.open(str(FOLDER / "finger.geo"))
         gmsh.model.mesh.generate(3)
+        points, cells = read_cage(gmsh.model.mesh)
         for version, name in ((4.1, "finger.msh"), (2.2, "finger-22.msh")):
             gmsh.option.setNumber("Mesh.MshFileVersion", version)
-            gmsh.write(str(FOLDER / name))
-        tags, flat, _ = gmsh.model.mesh.getNodes()
-        place = {int(tag): tuple(flat[3 * i:3 * i + 3]) for i, tag in enumerate(tags)}
-        _, corners = gmsh.model.mesh.getElementsByType(4)
+            part = FOLDER / f"part-of-{name}"
+            gmsh.write(str(part))
+            os.replace(part, FOLDER / name)
     finally:
         gmsh.finalize()
-    points = [tuple(map(float, place[tag])) for tag in sorted(place)]
-    cells = [tuple(int(t) - 1 for t in corners[i:i + 4]) for i in range(0, len(corners), 4)]
-    if sorted(place) != list(range(1, len(points) + 1)) or (len(points), len(cells)) != (72, 168):
+    return points, cells
+
+
+def read_cage(mesh):
+    """Control points and tetrahedra (from 0) of Gmsh's mesh, after a check that it is the expected one:
+    everything else here counts on the numbering that finger.geo describes."""
+    tags, flat, _ = mesh.getNodes()
+    place = {int(tag): tuple(float(c) for c in flat[3 * i:3 * i + 3]) for i, tag in enumerate(tags)}
+    points = [place[tag] for tag in sorted(place)]
+    _, corners = mesh.getElementsByType(4)
+    cells = [tuple(int(tag) - 1 for tag in corners[i:i + 4]) for i in range(0, len(corners), 4)]
+    if sorted(place) != list(range(1, 73)) or len(cells) != 168:
         raise SystemExit(f"finger.geo gave {len(points)} control points and {len(cells)} tetrahedra "
                          "instead of 72 and 168: this Gmsh meshes it in another way, use 4.15")
+    if min(signed_volume(points, cell) for cell in cells) <= 0.0:
+        raise SystemExit("finger.geo gave a tetrahedron of negative orientation")
     return points, cells
 
 
@@ -285,7 +315,7 @@ BEND_DEGREES = 70.0
 TWIST_DEGREES = 16.0
 SQUEEZE = 0.14
 BEND_FOOT = 4.0  # nothing below this height moves
-BEND_HEAD = 103.0  # here all amounts are reached
+BEND_HEAD = 101.5  # the cage's last ring: here all amounts are reached
 GRIPPING_FACE = 8.0  # distance of the arc's layer from the axis, the mean of the gripping face
 
 
@@ -330,7 +360,7 @@ def write_motion(points, cells, path):
         if frame in (0, FRAMES - 1):
             pose = points
         lines += [f"{frame},{i}," + ",".join(number(c) for c in p) for i, p in enumerate(pose)]
-    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+    write_whole(path, lines)
 
 
 def main():
