@@ -47,3 +47,8 @@ pub mod deform;
 pub mod mesh;
 pub mod solid;
 pub mod surface;
+
+/// The README's example is compiled with the documentation's.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
