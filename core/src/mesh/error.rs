@@ -82,7 +82,7 @@ pub enum MeshError {
         /// The vertex that is named twice.
         vertex: u32,
     },
-    /// A surface triangle or a crease runs along a pair of vertices that is no edge of a cell.
+    /// A crease runs along a pair of vertices that is no edge of a cell or of a surface triangle.
     NotAnEdge {
         /// The list that holds it.
         part: Part,
@@ -165,7 +165,8 @@ impl fmt::Display for MeshError {
             } => {
                 write!(
                     f,
-                    "{part} {index} runs from vertex {a} to {b}, which is no edge of a cell"
+                    "{part} {index} runs from vertex {a} to {b}, which is no edge of a cell or of a \
+                     surface triangle"
                 )
             }
             Self::OtherNumbering => f.write_str("the numbering belongs to another solid"),

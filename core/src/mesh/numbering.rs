@@ -4,22 +4,25 @@ use super::error::{Arena, MeshError, Part};
 use super::view::Solid;
 use super::{OCTAHEDRON_EDGES, TETRAHEDRON_EDGES};
 
-/// How many edges the scratch of [`Numbering::new`] must hold: six for each tetrahedron and
-/// twelve for each octahedron, shared ones counted every time. `None` if that does not fit.
+/// Corner indices of a triangle's edges.
+const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+/// How many edges the scratch of [`Numbering::new`] must hold: six for each tetrahedron, twelve
+/// for each octahedron and three for each surface triangle, shared ones counted every time. `None`
+/// if that does not fit.
 #[must_use]
 pub fn edge_capacity(solid: &Solid<'_>) -> Option<usize> {
     let tetrahedra = solid.tetrahedra.len().checked_mul(6)?;
-    solid
-        .octahedra
-        .len()
-        .checked_mul(12)?
-        .checked_add(tetrahedra)
+    let octahedra = solid.octahedra.len().checked_mul(12)?;
+    let surface = solid.surface.len().checked_mul(3)?;
+    tetrahedra.checked_add(octahedra)?.checked_add(surface)
 }
 
 /// The vertices of a split: which index the midpoint of an edge and the centroid of an
 /// octahedron get.
 ///
-/// Old vertices keep their index; then come edge midpoints by ascending pair of their ends; then
+/// Old vertices keep their index; then come midpoints of the edges of cells and of surface
+/// triangles (those of sheets are in no cell) by ascending pair of their ends; then
 /// octahedron centroids by ascending sorted corners (octahedra with the same corners by their
 /// place in the list).
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +41,8 @@ impl<'a> Numbering<'a> {
     /// # Errors
     ///
     /// Any error of [`Solid::check`]; [`MeshError::ArenaTooSmall`], which leaves both arenas
-    /// untouched; [`MeshError::NotAnEdge`] if a surface triangle or a crease does not run along
-    /// edges of cells.
+    /// untouched; [`MeshError::NotAnEdge`] if a crease runs along no edge of a cell or of a surface
+    /// triangle.
     pub fn new(
         solid: &Solid<'_>,
         edges: &'a mut [[u32; 2]],
@@ -68,7 +71,7 @@ impl<'a> Numbering<'a> {
             .ok()
             .and_then(|new| new.checked_add(solid.vertex_count))
             .ok_or(MeshError::TooLarge)?;
-        numbering.check_edges(solid)?;
+        numbering.check_creases(solid)?;
         Ok(numbering)
     }
 
@@ -109,24 +112,17 @@ impl<'a> Numbering<'a> {
             .filter_map(|(&place, vertex)| Some((usize::try_from(place).ok()?, vertex)))
     }
 
-    fn check_edges(&self, solid: &Solid<'_>) -> Result<(), MeshError> {
-        for (index, &[a, b, c]) in solid.surface.iter().enumerate() {
-            for edge in [[a, b], [b, c], [c, a]] {
-                self.check_edge(Part::SurfaceTriangle, index, edge)?;
+    fn check_creases(&self, solid: &Solid<'_>) -> Result<(), MeshError> {
+        for (index, &[a, b]) in solid.creases.iter().enumerate() {
+            if self.midpoint(a, b).is_none() {
+                return Err(MeshError::NotAnEdge {
+                    part: Part::Crease,
+                    index,
+                    edge: [a, b],
+                });
             }
         }
-        for (index, &edge) in solid.creases.iter().enumerate() {
-            self.check_edge(Part::Crease, index, edge)?;
-        }
         Ok(())
-    }
-
-    fn check_edge(&self, part: Part, index: usize, edge: [u32; 2]) -> Result<(), MeshError> {
-        let [a, b] = edge;
-        match self.midpoint(a, b) {
-            Some(_) => Ok(()),
-            None => Err(MeshError::NotAnEdge { part, index, edge }),
-        }
     }
 }
 
@@ -148,7 +144,8 @@ fn length<T>(list: &[T]) -> u32 {
     u32::try_from(list.len()).unwrap_or(u32::MAX)
 }
 
-/// Fills `arena` with the edges of all cells, sorts them and drops repetitions.
+/// Fills `arena` with the edges of all cells and surface triangles, sorts them and drops
+/// repetitions.
 fn unique_edges<'a>(solid: &Solid<'_>, arena: &'a mut [[u32; 2]]) -> &'a [[u32; 2]] {
     let of_tetrahedra = solid
         .tetrahedra
@@ -158,7 +155,12 @@ fn unique_edges<'a>(solid: &Solid<'_>, arena: &'a mut [[u32; 2]]) -> &'a [[u32; 
         .octahedra
         .iter()
         .flat_map(|cell| edges_of(cell, &OCTAHEDRON_EDGES));
-    for (slot, edge) in arena.iter_mut().zip(of_tetrahedra.chain(of_octahedra)) {
+    let of_surface = solid
+        .surface
+        .iter()
+        .flat_map(|triangle| edges_of(triangle, &TRIANGLE_EDGES));
+    let of_all = of_tetrahedra.chain(of_octahedra).chain(of_surface);
+    for (slot, edge) in arena.iter_mut().zip(of_all) {
         *slot = edge;
     }
     arena.sort_unstable();

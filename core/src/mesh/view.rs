@@ -14,7 +14,9 @@ pub struct Solid<'a> {
     /// Octahedra, opposite corners `(0, 3) (1, 4) (2, 5)`.
     pub octahedra: &'a [[u32; 6]],
     /// Triangles that follow the surface rule: the boundary, as
-    /// [`boundary_triangles`](super::boundary_triangles) finds it. A split hands it on.
+    /// [`boundary_triangles`](super::boundary_triangles) finds it, interior surfaces that are to
+    /// show as creases, and sheets: triangles that no cell has, which hang on the solid or stand
+    /// alone. A split hands them on.
     pub surface: &'a [[u32; 3]],
     /// Crease edges, on the boundary or inside.
     pub creases: &'a [[u32; 2]],

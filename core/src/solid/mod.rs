@@ -6,3 +6,9 @@
 //! one numbering, and so that the last level can do without its cells.
 
 pub mod tet_oct;
+
+mod boundary;
+mod rules;
+
+pub use boundary::Boundary;
+pub use rules::{PointBuffers, VertexState};

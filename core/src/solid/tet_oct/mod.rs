@@ -31,22 +31,7 @@ mod points;
 mod scratch;
 mod split;
 
-pub use points::{PointBuffers, VertexState, refine_points};
+pub use super::{Boundary, PointBuffers, VertexState};
+pub use points::refine_points;
 pub use scratch::Scratch;
 pub use split::{split, split_counts};
-
-use crate::surface::LoopWeights;
-
-/// What the surface triangles of a solid follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Boundary {
-    /// Loop's scheme on the surface triangles, so that the skin depends on its own control points
-    /// alone.
-    Surface(LoopWeights),
-    /// No rule of its own: the interior rule everywhere, as the paper's pseudocode has it. The
-    /// boundary shrinks.
-    Interior,
-    /// Surface vertices stay and surface edges are halved: the polyhedron stays as it is.
-    Fixed,
-}

@@ -2,8 +2,7 @@
 
 use heapless::Vec;
 
-use super::points::{PointBuffers, VertexState, refine_points};
-use super::{Boundary, split, split_counts};
+use super::{Boundary, PointBuffers, VertexState, refine_points, split, split_counts};
 use crate::blend::Blend;
 use crate::mesh::{Arena, MeshError, Numbering, Solid, SolidArena, edge_capacity, require};
 
