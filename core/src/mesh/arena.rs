@@ -52,6 +52,7 @@ impl<const T: usize, const O: usize, const S: usize, const C: usize, const K: us
             surface: &self.surface,
             creases: &self.creases,
             corners: &self.corners,
+            ..Solid::default()
         }
     }
 
@@ -59,8 +60,10 @@ impl<const T: usize, const O: usize, const S: usize, const C: usize, const K: us
     ///
     /// # Errors
     ///
-    /// [`MeshError::ArenaTooSmall`]; this solid is then as it was.
+    /// [`MeshError::ArenaTooSmall`], and [`MeshError::UnsupportedPart`] if the solid has other
+    /// cells than tetrahedra and octahedra; this solid is then as it was.
     pub fn assign(&mut self, solid: &Solid<'_>) -> Result<(), MeshError> {
+        solid.require_tetrahedral()?;
         let counts = Counts {
             tetrahedra: solid.tetrahedra.len(),
             octahedra: solid.octahedra.len(),

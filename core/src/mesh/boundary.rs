@@ -25,13 +25,14 @@ pub fn face_capacity(solid: &Solid<'_>) -> Option<usize> {
 ///
 /// # Errors
 ///
-/// Any error of [`Solid::check`], and [`MeshError::ArenaTooSmall`], which leaves `scratch`
-/// untouched.
+/// Any error of [`Solid::check`]; [`MeshError::UnsupportedPart`] if the solid has other cells than
+/// tetrahedra and octahedra; [`MeshError::ArenaTooSmall`], which leaves `scratch` untouched.
 pub fn boundary_triangles<'a>(
     solid: &Solid<'_>,
     scratch: &'a mut [[u32; 3]],
 ) -> Result<&'a [[u32; 3]], MeshError> {
     solid.check()?;
+    solid.require_tetrahedral()?;
     let needed = face_capacity(solid).ok_or(MeshError::TooLarge)?;
     let given = scratch.len();
     let faces = scratch.get_mut(..needed).ok_or(MeshError::ArenaTooSmall {

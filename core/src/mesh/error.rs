@@ -10,8 +10,14 @@ pub enum Part {
     Tetrahedron,
     /// Octahedra.
     Octahedron,
+    /// Triangular prisms.
+    Prism,
+    /// Hexahedra.
+    Hexahedron,
     /// Surface triangles.
     SurfaceTriangle,
+    /// Surface quadrilaterals.
+    SurfaceQuad,
     /// Crease edges.
     Crease,
     /// Corners.
@@ -91,6 +97,11 @@ pub enum MeshError {
         /// The two vertices.
         edge: [u32; 2],
     },
+    /// The solid has an element that this scheme does not refine.
+    UnsupportedPart {
+        /// The list that is not empty.
+        part: Part,
+    },
     /// The numbering was made for another solid.
     OtherNumbering,
     /// The refined mesh would need more than 2^32 - 1 vertices, or a list longer than memory.
@@ -102,7 +113,10 @@ impl fmt::Display for Part {
         f.write_str(match self {
             Self::Tetrahedron => "tetrahedron",
             Self::Octahedron => "octahedron",
+            Self::Prism => "prism",
+            Self::Hexahedron => "hexahedron",
             Self::SurfaceTriangle => "surface triangle",
+            Self::SurfaceQuad => "surface quadrilateral",
             Self::Crease => "crease",
             Self::Corner => "corner",
         })
@@ -168,6 +182,13 @@ impl fmt::Display for MeshError {
                     "{part} {index} runs from vertex {a} to {b}, which is no edge of a cell or of a \
                      surface triangle"
                 )
+            }
+            Self::UnsupportedPart { part } => {
+                write!(
+                    f,
+                    "the mesh has a {part}, which this scheme does not refine; "
+                )?;
+                f.write_str("the mixed scheme does")
             }
             Self::OtherNumbering => f.write_str("the numbering belongs to another solid"),
             Self::TooLarge => f.write_str("the refined mesh needs more than 2^32 - 1 vertices"),

@@ -40,7 +40,8 @@ impl<'a> Numbering<'a> {
     ///
     /// # Errors
     ///
-    /// Any error of [`Solid::check`]; [`MeshError::ArenaTooSmall`], which leaves both arenas
+    /// Any error of [`Solid::check`]; [`MeshError::UnsupportedPart`] if the solid has other cells
+    /// than tetrahedra and octahedra; [`MeshError::ArenaTooSmall`], which leaves both arenas
     /// untouched; [`MeshError::NotAnEdge`] if a crease runs along no edge of a cell or of a surface
     /// triangle.
     pub fn new(
@@ -49,6 +50,7 @@ impl<'a> Numbering<'a> {
         octahedra: &'a mut [u32],
     ) -> Result<Self, MeshError> {
         solid.check()?;
+        solid.require_tetrahedral()?;
         let edges_needed = edge_capacity(solid).ok_or(MeshError::TooLarge)?;
         let octahedra_needed = solid.octahedra.len();
         require(Arena::Edges, edges_needed, edges.len())?;

@@ -13,11 +13,19 @@ pub struct Solid<'a> {
     pub tetrahedra: &'a [[u32; 4]],
     /// Octahedra, opposite corners `(0, 3) (1, 4) (2, 5)`.
     pub octahedra: &'a [[u32; 6]],
+    /// Triangular prisms, in the order of Gmsh: triangles `(0, 1, 2)` and `(3, 4, 5)`, joined by
+    /// the edges `(0, 3) (1, 4) (2, 5)`.
+    pub prisms: &'a [[u32; 6]],
+    /// Hexahedra, in the order of Gmsh and VTK: quadrilaterals `(0, 1, 2, 3)` and `(4, 5, 6, 7)`,
+    /// joined by the edges `(0, 4) (1, 5) (2, 6) (3, 7)`.
+    pub hexahedra: &'a [[u32; 8]],
     /// Triangles that follow the surface rule: the boundary, as
     /// [`boundary_triangles`](super::boundary_triangles) finds it, interior surfaces that are to
     /// show as creases, and sheets: triangles that no cell has, which hang on the solid or stand
     /// alone. A split hands them on.
     pub surface: &'a [[u32; 3]],
+    /// Quadrilaterals that follow the surface rule, corners in cyclic order.
+    pub surface_quads: &'a [[u32; 4]],
     /// Crease edges, on the boundary or inside.
     pub creases: &'a [[u32; 2]],
     /// Vertices that stay where they are.
@@ -49,7 +57,10 @@ impl Solid<'_> {
     pub fn check(&self) -> Result<(), MeshError> {
         self.check_part(Part::Tetrahedron, self.tetrahedra)?;
         self.check_part(Part::Octahedron, self.octahedra)?;
+        self.check_part(Part::Prism, self.prisms)?;
+        self.check_part(Part::Hexahedron, self.hexahedra)?;
         self.check_part(Part::SurfaceTriangle, self.surface)?;
+        self.check_part(Part::SurfaceQuad, self.surface_quads)?;
         self.check_part(Part::Crease, self.creases)?;
         for (index, &vertex) in self.corners.iter().enumerate() {
             if vertex >= self.vertex_count {
@@ -61,6 +72,19 @@ impl Solid<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Refuses what the tetrahedral schemes do not know: prisms, hexahedra, surface quadrilaterals.
+    pub(crate) fn require_tetrahedral(&self) -> Result<(), MeshError> {
+        let foreign = [
+            (Part::Prism, self.prisms.is_empty()),
+            (Part::Hexahedron, self.hexahedra.is_empty()),
+            (Part::SurfaceQuad, self.surface_quads.is_empty()),
+        ];
+        match foreign.iter().find(|(_, is_empty)| !is_empty) {
+            Some(&(part, _)) => Err(MeshError::UnsupportedPart { part }),
+            None => Ok(()),
+        }
     }
 
     fn check_part<const N: usize>(

@@ -98,6 +98,7 @@ pub fn split<'a>(
         surface,
         creases,
         corners,
+        ..Solid::default()
     })
 }
 
