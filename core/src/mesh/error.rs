@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// A list of a [`Solid`](super::Solid).
+/// A list of a [`Solid`](super::Solid) or a [`ControlMesh`](super::ControlMesh).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Part {
@@ -22,6 +22,8 @@ pub enum Part {
     Crease,
     /// Corners.
     Corner,
+    /// Faces of a control mesh.
+    Face,
 }
 
 /// Memory that a caller lends.
@@ -52,6 +54,14 @@ pub enum Arena {
     Sums,
     /// States of the refined vertices.
     States,
+    /// Sides of a control mesh's faces.
+    Sides,
+    /// The order of a control mesh's faces.
+    FaceOrder,
+    /// Starts of the refined faces.
+    FaceOffsets,
+    /// Corners of the refined faces.
+    FaceCorners,
 }
 
 /// Why a mesh cannot be refined as it is, or where it is to go.
@@ -88,7 +98,7 @@ pub enum MeshError {
         /// The vertex that is named twice.
         vertex: u32,
     },
-    /// A crease runs along a pair of vertices that is no edge of a cell or of a surface triangle.
+    /// A crease runs along a pair of vertices that is no edge of a cell or of a face.
     NotAnEdge {
         /// The list that holds it.
         part: Part,
@@ -102,8 +112,46 @@ pub enum MeshError {
         /// The list that is not empty.
         part: Part,
     },
-    /// The numbering was made for another solid.
+    /// The numbering was made for another mesh.
     OtherNumbering,
+    /// The offsets of a control mesh do not start at 0, do not ascend, or do not end at the number
+    /// of its indices.
+    Offsets {
+        /// The face whose offsets are wrong.
+        face: usize,
+    },
+    /// A face has fewer than three corners.
+    FaceTooShort {
+        /// The face.
+        face: usize,
+        /// Its corners.
+        corners: usize,
+    },
+    /// A scheme for triangles was given another face.
+    NotATriangle {
+        /// The face.
+        face: usize,
+        /// Its corners.
+        corners: usize,
+    },
+    /// A limit mask for quads was given another face.
+    NotAQuad {
+        /// The face.
+        face: usize,
+        /// Its corners.
+        corners: usize,
+    },
+    /// Two faces run along an edge in the same direction, so that they cannot both be
+    /// counter-clockwise.
+    Orientation {
+        /// The edge's ends.
+        edge: [u32; 2],
+    },
+    /// The exact mask of a vertex or of an edge has a denominator above 2^30.
+    MaskTooLarge {
+        /// The vertex of the mesh that is refined; for an edge its end with the lesser index.
+        vertex: u32,
+    },
     /// The refined mesh would need more than 2^32 - 1 vertices, or a list longer than memory.
     TooLarge,
 }
@@ -119,6 +167,7 @@ impl fmt::Display for Part {
             Self::SurfaceQuad => "surface quadrilateral",
             Self::Crease => "crease",
             Self::Corner => "corner",
+            Self::Face => "face",
         })
     }
 }
@@ -138,6 +187,10 @@ impl fmt::Display for Arena {
             Self::OutputPoints => "output points",
             Self::Sums => "sums",
             Self::States => "vertex states",
+            Self::Sides => "sides of faces",
+            Self::FaceOrder => "face order",
+            Self::FaceOffsets => "face offsets",
+            Self::FaceCorners => "face corners",
         })
     }
 }
@@ -180,7 +233,7 @@ impl fmt::Display for MeshError {
                 write!(
                     f,
                     "{part} {index} runs from vertex {a} to {b}, which is no edge of a cell or of a \
-                     surface triangle"
+                     face"
                 )
             }
             Self::UnsupportedPart { part } => {
@@ -190,7 +243,32 @@ impl fmt::Display for MeshError {
                 )?;
                 f.write_str("the mixed scheme does")
             }
-            Self::OtherNumbering => f.write_str("the numbering belongs to another solid"),
+            Self::OtherNumbering => f.write_str("the numbering belongs to another mesh"),
+            Self::Offsets { face } => write!(
+                f,
+                "the offsets of face {face} do not ascend from 0 to the number of indices"
+            ),
+            Self::FaceTooShort { face, corners } => {
+                write!(f, "face {face} has {corners} corners, but needs 3 or more")
+            }
+            Self::NotATriangle { face, corners } => write!(
+                f,
+                "face {face} has {corners} corners, but the scheme is for triangles: triangulate the mesh"
+            ),
+            Self::NotAQuad { face, corners } => write!(
+                f,
+                "face {face} has {corners} corners, but the limit mask is for quads: refine once first"
+            ),
+            Self::Orientation { edge: [a, b] } => write!(
+                f,
+                "two faces run along the edge between vertices {a} and {b} in the same direction: \
+                 orient the mesh consistently"
+            ),
+            Self::MaskTooLarge { vertex } => write!(
+                f,
+                "the exact mask at vertex {vertex} has a denominator above 2^30: too many faces, or \
+                 faces with too many different numbers of corners, meet there"
+            ),
             Self::TooLarge => f.write_str("the refined mesh needs more than 2^32 - 1 vertices"),
         }
     }

@@ -1,7 +1,9 @@
-//! Meshes: what a solid is, its boundary, and the numbering of the vertices that a split adds.
+//! Meshes: what a solid and a surface are, a solid's boundary, and the numbering of the vertices
+//! that a split adds.
 //!
-//! A [`Solid`] is a view of index lists that somebody else owns. Everything here is about
-//! connectivity; values (coordinates, channels) live in slices beside it.
+//! A [`Solid`] and a [`ControlMesh`] (polygons of a surface) are views of index lists that somebody
+//! else owns. Everything here is about connectivity; values (coordinates, channels) live in slices
+//! beside it.
 //!
 //! # Conventions
 //!
@@ -15,22 +17,30 @@
 //!
 //! The order of refined vertices depends on connectivity alone: old vertices first, then edge
 //! midpoints by ascending pair of their ends, then octahedron centroids by ascending sorted
-//! corners ([`Numbering`]). So a rest cage and a posed cage refine to the same order on every
-//! machine.
+//! corners ([`Numbering`]). On a control mesh: old vertices, edge midpoints in the same order
+//! ([`SurfaceEdges`]), then face points by ascending sorted corners ([`FaceOrder`]). So a rest cage
+//! and a posed cage refine to the same order on every machine.
 
 mod arena;
 mod boundary;
+mod control_mesh;
 mod counts;
 mod error;
+mod face_order;
 mod numbering;
+mod surface_edges;
 mod view;
 
 pub use arena::SolidArena;
 pub use boundary::{boundary_triangles, face_capacity};
+pub use control_mesh::{ControlMesh, ControlMeshBuffers};
+pub(crate) use control_mesh::{index, length};
 pub use counts::Counts;
 pub use error::{Arena, MeshError, Part};
+pub use face_order::FaceOrder;
 pub(crate) use numbering::require;
 pub use numbering::{Numbering, edge_capacity};
+pub use surface_edges::{Side, SurfaceEdges};
 pub use view::{Solid, SolidBuffers};
 
 /// Corner indices of a tetrahedron's faces, counter-clockwise from outside; face `i` lies

@@ -1,9 +1,23 @@
-//! Rules of surface subdivision schemes.
+//! Surfaces: subdivision of control meshes, and the rules that a solid's boundary follows.
 //!
-//! A solid's boundary follows a surface scheme of its own, so that the skin of a refined solid
-//! depends on the boundary's control points alone. [`loop_weights`] holds the weight families of
-//! Loop's scheme.
+//! Each scheme is a folder with two operations: a *split*, which makes the connectivity of the next
+//! level, and a *refinement of points*, which computes values for its vertices over any
+//! [`Blend`](crate::blend::Blend). They are apart so that any number of values can be refined over
+//! one numbering, and so that the last level can do without its faces.
+//!
+//! * [`catmull_clark`]: any polygons, quads from the first level on.
+//! * [`loop_scheme`]: triangles, with the weight families of [`loop_weights`], which the boundary
+//!   of a solid shares.
+//!
+//! [`features`] says what boundaries, creases and corners follow.
 
+pub mod catmull_clark;
+pub mod features;
+mod irrational;
+pub mod loop_scheme;
 pub mod loop_weights;
+mod split;
 
+pub use features::{PointBuffers, Rim, VertexState};
 pub use loop_weights::LoopWeights;
+pub use split::SurfaceCounts;
