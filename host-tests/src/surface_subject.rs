@@ -1,0 +1,219 @@
+//! The crate under test on the host, over any value type, with buffers that are exactly as long as
+//! it says it needs.
+
+use octruss::blend::{Blend, FixedBlend};
+use octruss::mesh::{ControlMesh, ControlMeshBuffers, FaceOrder, MeshError, Side, SurfaceEdges};
+use octruss::surface::{
+    LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, catmull_clark, loop_scheme,
+};
+
+use crate::reference_surface::{Border, Family, Polygons};
+
+/// The lists that a [`ControlMesh`] views.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Lists {
+    vertex_count: u32,
+    offsets: Vec<u32>,
+    indices: Vec<u32>,
+    creases: Vec<[u32; 2]>,
+    corners: Vec<u32>,
+    odd: bool,
+}
+
+impl Lists {
+    /// The lists of a mesh.
+    pub fn of(mesh: &Polygons) -> Self {
+        let mut lists = Self {
+            vertex_count: mesh.vertex_count,
+            offsets: vec![0],
+            creases: mesh.creases.clone(),
+            corners: mesh.corners.clone(),
+            odd: mesh.odd,
+            ..Self::default()
+        };
+        for face in &mesh.faces {
+            lists.indices.extend(face);
+            lists.offsets.push(lists.indices.len() as u32);
+        }
+        lists
+    }
+
+    fn of_counts(counts: &SurfaceCounts) -> Self {
+        Self {
+            offsets: vec![0; counts.faces + 1],
+            indices: vec![0; counts.indices],
+            creases: vec![[0; 2]; counts.creases],
+            corners: vec![0; counts.corners],
+            ..Self::default()
+        }
+    }
+
+    fn buffers(&mut self) -> ControlMeshBuffers<'_> {
+        ControlMeshBuffers {
+            offsets: &mut self.offsets,
+            indices: &mut self.indices,
+            creases: &mut self.creases,
+            corners: &mut self.corners,
+        }
+    }
+
+    /// The view.
+    pub fn mesh(&self) -> ControlMesh<'_> {
+        ControlMesh {
+            vertex_count: self.vertex_count,
+            offsets: &self.offsets,
+            indices: &self.indices,
+            creases: &self.creases,
+            corners: &self.corners,
+            odd: self.odd,
+        }
+    }
+}
+
+/// A view as polygons.
+pub fn polygons(mesh: &ControlMesh<'_>) -> Polygons {
+    Polygons {
+        vertex_count: mesh.vertex_count,
+        faces: mesh.faces().map(<[u32]>::to_vec).collect(),
+        creases: mesh.creases.to_vec(),
+        corners: mesh.corners.to_vec(),
+        odd: mesh.odd,
+    }
+}
+
+/// The scheme to drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// Catmull and Clark's.
+    CatmullClark,
+    /// Loop's with a weight family.
+    Loop(Family),
+}
+
+/// The crate's name for a rim.
+pub fn rim(border: Border) -> Rim {
+    match border {
+        Border::Spline => Rim::Spline,
+        Border::SplineWithCorners => Rim::SplineWithCorners,
+        Border::Fixed => Rim::Fixed,
+    }
+}
+
+/// The crate's name for a weight family.
+pub fn weights(family: Family) -> LoopWeights {
+    match family {
+        Family::Loop => LoopWeights::Loop,
+        Family::Warren => LoopWeights::Warren,
+        Family::TriQuad => LoopWeights::TriQuad,
+    }
+}
+
+/// Scratch and output for `count` vertices.
+struct Memory<B: Blend> {
+    out: Vec<B::Point>,
+    sums: Vec<B::Sum>,
+    states: Vec<VertexState>,
+}
+
+impl<B: Blend> Memory<B> {
+    fn new(blend: &mut B, count: usize) -> Self {
+        let zero = blend.zero();
+        Self {
+            out: vec![blend.divide(&zero, 1); count],
+            sums: vec![zero; count],
+            states: vec![VertexState::default(); count],
+        }
+    }
+
+    fn buffers(&mut self) -> PointBuffers<'_, B> {
+        PointBuffers {
+            out: &mut self.out,
+            sums: &mut self.sums,
+            states: &mut self.states,
+        }
+    }
+}
+
+/// One level of any value type.
+pub fn refine<B: Blend>(
+    blend: &mut B,
+    scheme: Scheme,
+    border: Border,
+    mesh: &Polygons,
+    points: &[B::Point],
+) -> Result<(Polygons, Vec<B::Point>), MeshError> {
+    let lists = Lists::of(mesh);
+    let mesh = lists.mesh();
+    let mut sides = vec![Side::default(); mesh.indices.len()];
+    let edges = SurfaceEdges::new(&mesh, &mut sides)?;
+    let mut order = vec![0; mesh.face_count()];
+    let order = FaceOrder::new(&mesh, &mut order)?;
+    let rim = rim(border);
+    let counts = match scheme {
+        Scheme::CatmullClark => catmull_clark::split_counts(&mesh, &edges),
+        Scheme::Loop(_) => loop_scheme::split_counts(&mesh, &edges),
+    }
+    .ok_or(MeshError::TooLarge)?;
+    let mut refined = Lists::of_counts(&counts);
+    let buffers = refined.buffers();
+    let next = match scheme {
+        Scheme::CatmullClark => catmull_clark::split(&mesh, &edges, &order, buffers)?,
+        Scheme::Loop(_) => loop_scheme::split(&mesh, &edges, buffers)?,
+    };
+    let mut memory = Memory::new(blend, counts.vertices);
+    let buffers = memory.buffers();
+    match scheme {
+        Scheme::CatmullClark => {
+            catmull_clark::refine_points(blend, &mesh, &edges, &order, rim, points, buffers)?;
+        }
+        Scheme::Loop(family) => {
+            let weights = weights(family);
+            loop_scheme::refine_points(blend, &mesh, &edges, weights, rim, points, buffers)?;
+        }
+    }
+    Ok((polygons(&next), memory.out))
+}
+
+/// One level in raw bits; panics if a coordinate saturated.
+pub fn refine_bits(
+    scheme: Scheme,
+    border: Border,
+    mesh: &Polygons,
+    points: &[[i32; 3]],
+) -> Result<(Polygons, Vec<[i32; 3]>), MeshError> {
+    refine(
+        &mut FixedBlend::<i32, 3>::new(),
+        scheme,
+        border,
+        mesh,
+        points,
+    )
+}
+
+/// Limit positions of any value type.
+pub fn limit<B: Blend>(
+    blend: &mut B,
+    scheme: Scheme,
+    border: Border,
+    mesh: &Polygons,
+    points: &[B::Point],
+) -> Result<Vec<B::Point>, MeshError> {
+    let lists = Lists::of(mesh);
+    let mesh = lists.mesh();
+    let mut sides = vec![Side::default(); mesh.indices.len()];
+    let edges = SurfaceEdges::new(&mesh, &mut sides)?;
+    let rim = rim(border);
+    let count = mesh.vertex_count as usize + edges.count() as usize;
+    let mut memory = Memory::new(blend, count);
+    let buffers = memory.buffers();
+    let limit = match scheme {
+        Scheme::CatmullClark => {
+            catmull_clark::limit_points(blend, &mesh, &edges, rim, points, buffers)?
+        }
+        Scheme::Loop(family) => {
+            let weights = weights(family);
+            loop_scheme::limit_points(blend, &mesh, &edges, weights, rim, points, buffers)?
+        }
+    };
+    Ok(limit.to_vec())
+}
