@@ -1,1 +1,5 @@
-//! octruss
+//! octruss host tools
+pub mod error;
+pub mod mesh;
+pub mod read;
+pub mod write;

@@ -1,0 +1,64 @@
+//! Feature files: creases and corners for any mesh, one a line.
+//!
+//! `crease A B` makes the edge between two vertices a crease, `corner A` keeps a vertex in its
+//! place; vertices are counted from 0 in the mesh's file order. Empty lines and everything after
+//! `#` are skipped.
+
+use super::words::shown;
+use crate::error::{Error, Result};
+use crate::mesh::{Features, Vertex};
+
+/// Reads a feature file for a mesh of so many vertices.
+pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        Error::new("found bytes that are not text").at_byte(error.valid_up_to())
+    })?;
+    let mut features = Features::default();
+    for (index, line) in text.lines().enumerate() {
+        let content = line.split('#').next().unwrap_or("");
+        let words: Vec<&str> = content.split_ascii_whitespace().collect();
+        let located = |error: Error| error.at_line(index + 1);
+        let vertex = |word: &str| vertex(word, vertices).map_err(located);
+        match words.as_slice() {
+            [] => {}
+            ["crease", a, b] => {
+                let edge = [vertex(a)?, vertex(b)?];
+                if edge[0] == edge[1] {
+                    return Err(located(Error::new(format!(
+                        "both ends of the crease are vertex {a}"
+                    ))));
+                }
+                features.creases.push(edge);
+            }
+            ["corner", a] => features.corners.push(vertex(a)?),
+            ["crease-face", ..] => {
+                return Err(located(Error::new(
+                    "crease-face makes a face of the mesh a crease; `info`, `refine`, `bake` and `deform` of tetrahedral cages read crease edges and corners only",
+                )
+                .advise("give the edges that shall stay sharp as `crease A B`")));
+            }
+            [word, ..] => {
+                return Err(located(Error::new(format!(
+                    "expected `crease A B` or `corner A`, found \"{}\" with {} words after it",
+                    shown(word),
+                    words.len() - 1
+                ))));
+            }
+        }
+    }
+    features.normalise();
+    Ok(features)
+}
+
+fn vertex(word: &str, vertices: usize) -> Result<Vertex> {
+    let index: Vertex = word
+        .parse()
+        .map_err(|_| Error::new(format!("expected a vertex, found \"{}\"", shown(word))))?;
+    if usize::try_from(index).is_ok_and(|index| index < vertices) {
+        return Ok(index);
+    }
+    Err(Error::new(format!(
+        "there is no vertex {index}; the mesh has {vertices}"
+    ))
+    .advise("vertices are counted from 0 in the order of the mesh file"))
+}

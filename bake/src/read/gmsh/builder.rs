@@ -1,0 +1,128 @@
+//! Turns Gmsh's nodes, elements and physical groups into a solid mesh.
+
+use super::elements::ElementType;
+use crate::error::{Error, Result, count};
+use crate::mesh::{Point, SolidMesh, Vertex};
+use std::collections::{BTreeMap, HashMap};
+
+/// A physical group's dimension and number.
+type Group = (u8, i64);
+
+/// Collects what the sections of a file say, in file order.
+#[derive(Default)]
+pub struct Builder {
+    mesh: SolidMesh,
+    vertex_of_tag: HashMap<u64, Vertex>,
+    group_names: HashMap<Group, String>,
+    ignored: BTreeMap<ElementType, usize>,
+    /// Volume elements that are no tetrahedra: how many, and the line of the first.
+    foreign: BTreeMap<ElementType, (usize, usize)>,
+}
+
+impl Builder {
+    /// Records the name of a physical group.
+    pub fn name_group(&mut self, dimension: u8, number: i64, name: &str) {
+        self.group_names
+            .insert((dimension, number.abs()), name.to_ascii_lowercase());
+    }
+
+    /// Records a node under its tag.
+    pub fn node(&mut self, tag: u64, position: Point, line: usize) -> Result<()> {
+        let vertex = Vertex::try_from(self.mesh.points.len())
+            .map_err(|_| Error::new("there are more than 2^32 nodes").at_line(line))?;
+        if self.vertex_of_tag.insert(tag, vertex).is_some() {
+            return Err(Error::new(format!("node {tag} is listed twice"))
+                .at_line(line)
+                .advise("give every node a tag of its own"));
+        }
+        self.mesh.points.push(position);
+        Ok(())
+    }
+
+    /// Records an element that belongs to the physical groups with these numbers.
+    pub fn element(
+        &mut self,
+        kind: ElementType,
+        groups: &[i64],
+        nodes: &[u64],
+        line: usize,
+    ) -> Result<()> {
+        match (kind, nodes) {
+            (ElementType::Tetrahedron, &[a, b, c, d]) => {
+                let corners = [
+                    self.vertex(a, line)?,
+                    self.vertex(b, line)?,
+                    self.vertex(c, line)?,
+                    self.vertex(d, line)?,
+                ];
+                self.mesh.cells.tetrahedra.push(corners);
+            }
+            (ElementType::Line, &[a, b]) if self.in_group(1, groups, "crease") => {
+                let edge = [self.vertex(a, line)?, self.vertex(b, line)?];
+                self.mesh.features.creases.push(edge);
+            }
+            (ElementType::Point, &[a]) if self.in_group(0, groups, "corner") => {
+                let corner = self.vertex(a, line)?;
+                self.mesh.features.corners.push(corner);
+            }
+            _ if kind.dimension() == 3 => self.foreign.entry(kind).or_insert((0, line)).0 += 1,
+            _ if kind.dimension() == 2 && self.in_group(2, groups, "crease") => {
+                return Err(Error::new(format!(
+                    "a physical surface whose name starts with \"crease\" holds this {}; the scheme tet-oct has crease edges, not crease faces",
+                    kind.names().0
+                ))
+                .at_line(line)
+                .advise("put the edges that shall stay sharp into a physical curve, or rename the surface"));
+            }
+            _ => *self.ignored.entry(kind).or_default() += 1,
+        }
+        Ok(())
+    }
+
+    fn vertex(&self, tag: u64, line: usize) -> Result<Vertex> {
+        self.vertex_of_tag.get(&tag).copied().ok_or_else(|| {
+            Error::new(format!(
+                "an element names node {tag}, which the file does not list"
+            ))
+            .at_line(line)
+            .advise("the mesh is incomplete; write it again")
+        })
+    }
+
+    fn in_group(&self, dimension: u8, groups: &[i64], prefix: &str) -> bool {
+        groups.iter().any(|number| {
+            let name = self.group_names.get(&(dimension, number.abs()));
+            name.is_some_and(|name| name.starts_with(prefix))
+        })
+    }
+
+    /// The mesh, with notes on what was left out.
+    pub fn finish(mut self) -> Result<SolidMesh> {
+        if let Some((kind, (number, line))) = self.foreign.iter().next() {
+            return Err(Error::new(format!(
+                "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra",
+                count(*number, kind.names().0, kind.names().1)
+            ))
+            .at_line(*line)
+            .advise("mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)"));
+        }
+        if self.mesh.cells.is_empty() {
+            return Err(Error::new("the mesh has no tetrahedra").advise(
+                "mesh in three dimensions (`gmsh -3`), and if there are physical groups, put the volume into one: Gmsh then saves only what is in a group",
+            ));
+        }
+        let ignored: Vec<String> = self
+            .ignored
+            .iter()
+            .map(|(kind, number)| count(*number, kind.names().0, kind.names().1))
+            .collect();
+        if !ignored.is_empty() {
+            self.mesh.notes.push(format!(
+                "ignored {}, which are in no physical group whose name starts with \"crease\" (curves) or \"corner\" (points)",
+                ignored.join(", ")
+            ));
+        }
+        self.mesh.features.normalise();
+        Ok(self.mesh)
+    }
+}

@@ -1,0 +1,72 @@
+//! Readers: one for each file format, bytes in, mesh out.
+//!
+//! A reader takes the whole file as bytes and gives a mesh, or an error that names line or byte;
+//! it never panics, whatever the bytes. It does not touch the file system: that is done here,
+//! together with the choice of the reader by the file name's extension. A new format is one more
+//! file and one more line in [`solid`] or [`model`].
+
+pub mod features;
+pub mod gmsh;
+pub mod motion;
+pub mod obj;
+pub mod vtu;
+pub(crate) mod words;
+
+use crate::error::{Error, Result};
+use crate::mesh::SolidMesh;
+use obj::Model;
+use std::path::Path;
+
+/// The bytes of a file.
+pub fn bytes(file: &Path) -> Result<Vec<u8>> {
+    std::fs::read(file)
+        .map_err(|error| Error::new(format!("cannot be read: {error}")).in_file(file))
+}
+
+/// The extension of a file name in lower case, empty if it has none.
+pub fn extension(file: &Path) -> String {
+    file.extension()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_ascii_lowercase()
+}
+
+/// Reads a solid mesh in the format that the file's extension names.
+pub fn solid(file: &Path) -> Result<SolidMesh> {
+    let reader =
+        match extension(file).as_str() {
+            "msh" => gmsh::read,
+            "vtu" => vtu::read,
+            other => {
+                return Err(Error::new(format!(
+                    "no reader of solid meshes for \".{other}\" files"
+                ))
+                .advise("solid meshes are read from Gmsh .msh (2.2 and 4.1, ASCII) and VTK .vtu")
+                .in_file(file));
+            }
+        };
+    reader(&bytes(file)?).map_err(|error| error.in_file(file))
+}
+
+/// Reads a solid mesh and adds the features of a feature file to it.
+pub fn solid_with_features(file: &Path, features: Option<&Path>) -> Result<SolidMesh> {
+    let mut mesh = solid(file)?;
+    if let Some(features) = features {
+        let more = features::read(&bytes(features)?, mesh.points.len())
+            .map_err(|error| error.in_file(features))?;
+        mesh.add_features(more);
+    }
+    Ok(mesh)
+}
+
+/// Reads a model in the format that the file's extension names.
+pub fn model(file: &Path) -> Result<Model> {
+    match extension(file).as_str() {
+        "obj" => obj::read(&bytes(file)?).map_err(|error| error.in_file(file)),
+        other => Err(
+            Error::new(format!("no reader of models for \".{other}\" files"))
+                .advise("models are read from Wavefront .obj")
+                .in_file(file),
+        ),
+    }
+}

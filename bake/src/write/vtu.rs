@@ -1,0 +1,94 @@
+//! Solids as VTK XML unstructured grids (`.vtu`), ASCII.
+//!
+//! Octahedra are polyhedra (type 42) with the arrays `faces` and `faceoffsets`, which every version
+//! of VTK since 5.10 reads. Coordinates have the fewest digits that give the same double back.
+
+use super::failed;
+use crate::error::Result;
+use crate::mesh::{OCTAHEDRON_FACES, SolidMesh};
+use std::fmt::Display;
+use std::io::Write;
+
+/// Writes points and cells: all tetrahedra, then all octahedra. Features are not part of the
+/// format.
+pub fn write(mesh: &SolidMesh, out: &mut dyn Write) -> Result<()> {
+    write_grid(mesh, out).map_err(failed)
+}
+
+fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
+    let cells = &mesh.cells;
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(
+        out,
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"
+    )?;
+    writeln!(out, "<UnstructuredGrid>")?;
+    writeln!(
+        out,
+        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
+        mesh.points.len(),
+        cells.len()
+    )?;
+    writeln!(out, "<Points>")?;
+    let points = mesh.points.iter().map(|point| point.as_slice());
+    array(
+        out,
+        "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"",
+        points,
+    )?;
+    writeln!(out, "</Points>\n<Cells>")?;
+    array(out, "type=\"Int64\" Name=\"connectivity\"", cells.corners())?;
+    let ends = cells.corners().scan(0_usize, |end, cell| {
+        *end += cell.len();
+        Some([*end])
+    });
+    array(out, "type=\"Int64\" Name=\"offsets\"", ends)?;
+    let types = cells
+        .corners()
+        .map(|cell| [if cell.len() == 4 { 10_u8 } else { 42 }]);
+    array(out, "type=\"UInt8\" Name=\"types\"", types)?;
+    if !cells.octahedra.is_empty() {
+        polyhedra(mesh, out)?;
+    }
+    writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+fn polyhedra(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
+    // The number of faces, then for each face its number of corners and the corners.
+    const STREAM: usize = 1 + 8 * 4;
+    let stream = mesh.cells.octahedra.iter().map(|octahedron| {
+        let mut stream = [0_u32; STREAM];
+        stream[0] = 8;
+        for (entry, face) in stream[1..].chunks_exact_mut(4).zip(OCTAHEDRON_FACES) {
+            let corners = face.map(|corner| octahedron[corner]);
+            entry.copy_from_slice(&[3, corners[0], corners[1], corners[2]]);
+        }
+        stream
+    });
+    array(out, "type=\"Int64\" Name=\"faces\"", stream)?;
+    let no_polyhedra = mesh.cells.tetrahedra.iter().map(|_| [-1_i64]);
+    let ends = (1..=mesh.cells.octahedra.len()).map(|number| [(number * STREAM) as i64]);
+    array(
+        out,
+        "type=\"Int64\" Name=\"faceoffsets\"",
+        no_polyhedra.chain(ends),
+    )
+}
+
+/// One array, a line for each item.
+fn array<N: Display>(
+    out: &mut dyn Write,
+    attributes: &str,
+    items: impl Iterator<Item = impl AsRef<[N]>>,
+) -> std::io::Result<()> {
+    writeln!(out, "<DataArray {attributes} format=\"ascii\">")?;
+    for item in items {
+        let mut separator = "";
+        for number in item.as_ref() {
+            write!(out, "{separator}{number}")?;
+            separator = " ";
+        }
+        writeln!(out)?;
+    }
+    writeln!(out, "</DataArray>")
+}
