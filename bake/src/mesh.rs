@@ -4,8 +4,6 @@
 //! field of [`Cells`]; labels and scalar channels of vertices or cells are further fields of
 //! [`SolidMesh`].
 
-use crate::error::{Error, Result};
-
 /// Index of a vertex, counted from 0 in file order.
 pub type Vertex = u32;
 
@@ -49,40 +47,6 @@ impl Cells {
     }
 }
 
-/// The faces of a tetrahedron, counter-clockwise from outside when the cell is positive.
-pub const TETRAHEDRON_FACES: [[usize; 3]; 4] = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-
-/// The faces of an octahedron, counter-clockwise from outside when the cell is positive.
-pub const OCTAHEDRON_FACES: [[usize; 3]; 8] = [
-    [0, 2, 1],
-    [0, 1, 5],
-    [0, 4, 2],
-    [0, 5, 4],
-    [3, 1, 2],
-    [3, 5, 1],
-    [3, 2, 4],
-    [3, 4, 5],
-];
-
-/// The edges of a tetrahedron.
-pub const TETRAHEDRON_EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
-
-/// The edges of an octahedron: every pair of corners but the three opposite ones.
-pub const OCTAHEDRON_EDGES: [[usize; 2]; 12] = [
-    [0, 1],
-    [0, 2],
-    [0, 4],
-    [0, 5],
-    [1, 2],
-    [1, 3],
-    [1, 5],
-    [2, 3],
-    [2, 4],
-    [3, 4],
-    [3, 5],
-    [4, 5],
-];
-
 /// Where the smooth map is meant not to be smooth.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Features {
@@ -124,40 +88,5 @@ impl SolidMesh {
         self.features.creases.extend(more.creases);
         self.features.corners.extend(more.corners);
         self.features.normalise();
-    }
-
-    /// Error if the meshes do not have the same vertices and cells in the same order; `self` is
-    /// the posed one.
-    pub fn require_connectivity_of(&self, cage: &SolidMesh) -> Result<()> {
-        if self.points.len() != cage.points.len() {
-            return Err(Error::new(format!(
-                "the pose has {} vertices, the cage has {}",
-                self.points.len(),
-                cage.points.len()
-            ))
-            .advise("a pose is the cage itself with its vertices moved: same vertices, same cells, same order"));
-        }
-        if self.cells != cage.cells {
-            let differing = self
-                .cells
-                .corners()
-                .zip(cage.cells.corners())
-                .position(|(a, b)| a != b);
-            let what = match differing {
-                Some(index) => format!(
-                    "the pose's cells differ from the cage's, first at {}",
-                    cage.cells.name(index)
-                ),
-                None => format!(
-                    "the pose has {} cells, the cage has {}",
-                    self.cells.len(),
-                    cage.cells.len()
-                ),
-            };
-            return Err(Error::new(what).advise(
-                "a pose is the cage itself with its vertices moved: same vertices, same cells, same order",
-            ));
-        }
-        Ok(())
     }
 }

@@ -199,14 +199,17 @@ pub fn trailing_number(path: &Path) -> Option<u64> {
     stem[start..].parse().ok()
 }
 
-/// Reads a motion for a cage: a `.csv` file, or a directory of numbered meshes with the cage's
-/// connectivity.
-pub fn read(path: &Path, cage: &SolidMesh) -> Result<Vec<Frame>> {
+/// Reads a motion of `points` control points: a `.csv` file, or a directory of numbered meshes, each
+/// of which `check` accepts as a pose of the cage.
+pub fn read(
+    path: &Path,
+    points: usize,
+    check: &dyn Fn(&SolidMesh) -> Result<()>,
+) -> Result<Vec<Frame>> {
     if path.is_dir() {
         let pose = |(number, file): (u64, PathBuf)| -> Result<Frame> {
             let mesh = super::solid(&file)?;
-            mesh.require_connectivity_of(cage)
-                .map_err(|error| error.in_file(&file))?;
+            check(&mesh).map_err(|error| error.in_file(&file))?;
             Ok(Frame {
                 number,
                 points: mesh.points,
@@ -214,7 +217,14 @@ pub fn read(path: &Path, cage: &SolidMesh) -> Result<Vec<Frame>> {
         };
         return numbered_meshes(path)?.into_iter().map(pose).collect();
     }
-    read_csv(&super::bytes(path)?, cage.points.len()).map_err(|error| error.in_file(path))
+    if super::extension(path) != "csv" {
+        return Err(
+            Error::new("a motion is a directory of numbered poses or a .csv file")
+                .advise("the columns of a .csv are frame, point, x, y, z")
+                .in_file(path),
+        );
+    }
+    read_csv(&super::bytes(path)?, points).map_err(|error| error.in_file(path))
 }
 
 #[cfg(test)]

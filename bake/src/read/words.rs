@@ -25,7 +25,7 @@ impl<'a> Words<'a> {
     }
 
     /// Line of the word that was read last, counted from 1.
-    pub fn line(&self) -> usize {
+    pub fn word_line(&self) -> usize {
         self.word_line
     }
 
@@ -107,11 +107,6 @@ impl<'a> Words<'a> {
         std::str::from_utf8(&rest[..length])
             .map(str::trim)
             .map_err(|_| self.error("found bytes that are not text"))
-    }
-
-    /// Bytes that are left: no sane count of items in this file can exceed it.
-    pub fn remaining(&self) -> usize {
-        self.text.len().saturating_sub(self.position)
     }
 }
 

@@ -5,7 +5,8 @@
 
 use super::failed;
 use crate::error::Result;
-use crate::mesh::{OCTAHEDRON_FACES, SolidMesh};
+use crate::mesh::SolidMesh;
+use octruss::mesh::OCTAHEDRON_FACES;
 use std::fmt::Display;
 use std::io::Write;
 

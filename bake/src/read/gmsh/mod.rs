@@ -114,7 +114,7 @@ fn end_of_section(words: &mut Words<'_>, section: &str) -> Result<()> {
 }
 
 fn skip_section(words: &mut Words<'_>, section: &str) -> Result<()> {
-    let start = words.line();
+    let start = words.word_line();
     while let Some(word) = words.next_word()? {
         if word.strip_prefix("$End") == Some(section) {
             return Ok(());

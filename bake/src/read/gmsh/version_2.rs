@@ -10,7 +10,7 @@ pub fn nodes(words: &mut Words<'_>, builder: &mut Builder) -> Result<()> {
     let number: usize = words.number("the number of nodes")?;
     for _ in 0..number {
         let tag: u64 = words.number("the tag of a node")?;
-        let line = words.line();
+        let line = words.word_line();
         let position = [
             words.coordinate("the x coordinate of a node")?,
             words.coordinate("the y coordinate of a node")?,
@@ -27,7 +27,7 @@ pub fn elements(words: &mut Words<'_>, builder: &mut Builder) -> Result<()> {
     let mut nodes = Vec::new();
     for _ in 0..number {
         let _tag: u64 = words.number("the tag of an element")?;
-        let line = words.line();
+        let line = words.word_line();
         let kind = ElementType::from_number(words.number("the type of an element")?, line)?;
         let tags: usize = words.number("the number of tags of an element")?;
         // The first tag is the physical group, 0 for none; the others are of no use here.

@@ -70,7 +70,7 @@ pub fn nodes(words: &mut Words<'_>, builder: &mut Builder) -> Result<()> {
                 words.coordinate("the y coordinate of a node")?,
                 words.coordinate("the z coordinate of a node")?,
             ];
-            let line = words.line();
+            let line = words.word_line();
             for _ in 0..parameters {
                 let _: f64 = words.number("a parametric coordinate of a node")?;
             }
@@ -100,7 +100,7 @@ pub fn elements(
         let entity: i64 = words.number("the tag of an element block's entity")?;
         let kind = ElementType::from_number(
             words.number("the type of a block's elements")?,
-            words.line(),
+            words.word_line(),
         )?;
         let number: usize = words.number("the number of elements in a block")?;
         let groups = entities
@@ -108,7 +108,7 @@ pub fn elements(
             .map_or(&[][..], Vec::as_slice);
         for _ in 0..number {
             let _tag: u64 = words.number("the tag of an element")?;
-            let line = words.line();
+            let line = words.word_line();
             nodes.clear();
             for _ in 0..kind.node_count() {
                 nodes.push(words.number("the tag of an element's node")?);

@@ -10,8 +10,7 @@ use std::fmt::Display;
 /// An open file: its XML, its appended data and how its binary blocks are laid out.
 pub struct File<'a, 'input> {
     document: &'a Document<'input>,
-    /// Place in the file and bytes of the appended data.
-    appended: Option<(usize, &'a [u8])>,
+    appended: Option<&'a [u8]>,
     layout: Layout,
 }
 
@@ -49,10 +48,7 @@ impl NumberType {
 
 impl<'a, 'input> File<'a, 'input> {
     /// Reads the attributes of the root element.
-    pub fn new(
-        document: &'a Document<'input>,
-        appended: Option<(usize, &'a [u8])>,
-    ) -> Result<Self> {
+    pub fn new(document: &'a Document<'input>, appended: Option<&'a [u8]>) -> Result<Self> {
         let root = document.root_element();
         let mut file = Self {
             document,
@@ -310,7 +306,7 @@ impl<'a, 'input> File<'a, 'input> {
                     .map_err(located)
             }
             Some("appended") => {
-                let Some((_, data)) = self.appended else {
+                let Some(data) = self.appended else {
                     return Err(self.error(
                         node,
                         "the array is appended, but the file has no appended data",

@@ -41,9 +41,9 @@ fn line_number(row: u32) -> usize {
     usize::try_from(row).unwrap_or(usize::MAX)
 }
 
-/// The XML without its appended data, and those data with the place where they start. Appended raw
+/// The XML without its appended data, and those data. Appended raw
 /// data are no text, so they must go before the rest can be parsed.
-fn split_appended(bytes: &[u8]) -> Result<(String, Option<(usize, &[u8])>)> {
+fn split_appended(bytes: &[u8]) -> Result<(String, Option<&[u8]>)> {
     const START: &[u8] = b"<AppendedData";
     const END: &[u8] = b"</AppendedData>";
     let text = |part: &[u8], offset: usize| match std::str::from_utf8(part) {
@@ -66,7 +66,7 @@ fn split_appended(bytes: &[u8]) -> Result<(String, Option<(usize, &[u8])>)> {
         .filter(|end| *end >= mark)
         .ok_or_else(cut_off)?;
     let xml = text(&bytes[..tag_end], 0)? + &text(&bytes[end..], end)?;
-    Ok((xml, Some((mark, &bytes[mark..end]))))
+    Ok((xml, Some(&bytes[mark..end])))
 }
 
 fn find(bytes: &[u8], pattern: &[u8]) -> Option<usize> {

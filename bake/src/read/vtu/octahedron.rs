@@ -1,7 +1,8 @@
 //! Recognises an octahedron among VTK's polyhedra and puts its corners into order.
 
 use crate::error::{Error, Result};
-use crate::mesh::{OCTAHEDRON_FACES, Vertex};
+use crate::mesh::Vertex;
+use octruss::mesh::OCTAHEDRON_FACES;
 
 /// The six corners of a polyhedron with the faces of an octahedron, opposite pairs being (0,3),
 /// (1,4), (2,5).

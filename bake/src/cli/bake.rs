@@ -1,0 +1,104 @@
+//! `octruss bake`.
+
+use super::{print_figures, progress::Bars, show_notes, source};
+use octruss_bake::error::Result;
+use octruss_bake::refine::{BoundaryRule, Scheme};
+use octruss_bake::table::format::MOST_FRACTION_BITS;
+use octruss_bake::table::{Options, Outside, bake};
+use octruss_bake::{check, read, write};
+use std::path::PathBuf;
+
+/// Bakes a deformation table and writes it as a bundle
+///
+/// The cage at rest is refined, every point of the model is located in a refined cell, and its weights
+/// there are carried back to the cage's vertices. The bundle holds the weights as integers that sum to
+/// one, the cage and the model at rest, and what is needed to know that it fits. The report says how
+/// large it is and how far its results can be from the smooth map.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The cage at rest: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
+    cage: PathBuf,
+    /// The model at rest, in the cage's unit: Wavefront .obj
+    #[arg(long, value_name = "MODEL")]
+    model: PathBuf,
+    /// The subdivision scheme
+    #[arg(long, value_enum, default_value_t)]
+    scheme: Scheme,
+    /// How many times to refine the cage
+    #[arg(long, value_name = "K", default_value_t = 2)]
+    levels: u32,
+    /// What the boundary follows
+    #[arg(long, value_enum, default_value_t)]
+    boundary: BoundaryRule,
+    /// Bits after the point of the 32-bit coordinates, 0 to 32; by default as many as leave two bits of
+    /// headroom over the largest coordinate of cage and model
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_FRACTION_BITS)))]
+    fraction_bits: Option<u32>,
+    /// Name of the unit of all coordinates, such as mm; at most 16 bytes; it is recorded, nothing is
+    /// converted
+    #[arg(long, value_name = "UNIT", default_value = "")]
+    unit: String,
+    /// File with creases and corners of the cage: a line each, `crease A B` or `corner A`
+    #[arg(long, value_name = "FILE")]
+    features: Option<PathBuf>,
+    /// What to do with model points outside the refined cage
+    #[arg(long, value_enum, default_value_t)]
+    outside: Outside,
+    /// Where the random poses start from on which the error is measured
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    seed: u64,
+    /// How many random poses to measure the error on
+    #[arg(long, value_name = "NUMBER", default_value_t = 4)]
+    random_poses: u32,
+    /// The bundle to write
+    #[arg(short, long, value_name = "OUT.oct")]
+    output: PathBuf,
+    /// Also write Rust source that holds the bundle, to include in firmware
+    #[arg(long, value_name = "OUT.rs")]
+    rust: Option<PathBuf>,
+    /// Also write C source that holds the bundle, to include in firmware
+    #[arg(long, value_name = "OUT.c")]
+    c: Option<PathBuf>,
+    /// Print the report as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let cage = read::solid_with_features(&arguments.cage, arguments.features.as_deref())?;
+    show_notes(&cage.notes);
+    let unused = check::unused_vertices(&cage);
+    if let Some(first) = unused.first() {
+        eprintln!(
+            "warning: {} of the cage's vertices belong to no cell and move nothing, first vertex {first}",
+            unused.len()
+        );
+    }
+    let model = read::model(&arguments.model)?;
+    let options = Options {
+        scheme: arguments.scheme,
+        boundary: arguments.boundary,
+        levels: arguments.levels,
+        fraction_bits: arguments.fraction_bits,
+        unit: arguments.unit.clone(),
+        outside: arguments.outside,
+        random_poses: arguments.random_poses,
+        seed: arguments.seed,
+    };
+    let baked = bake(&cage, &model.points, &options, &mut Bars::default())
+        .map_err(|error| error.in_file(&arguments.cage))?;
+    if let Some(file) = &arguments.rust {
+        write::atomically(file, |out| {
+            source::rust(&baked.bundle, &arguments.output, out)
+        })?;
+    }
+    if let Some(file) = &arguments.c {
+        write::atomically(file, |out| source::c(&baked.bundle, &arguments.output, out))?;
+    }
+    write::atomically(&arguments.output, |out| {
+        out.write_all(&baked.bundle)
+            .map_err(|error| octruss_bake::error::Error::new(format!("cannot be written: {error}")))
+    })?;
+    print_figures(&baked.report, arguments.json, || baked.report.to_string())
+}

@@ -1,0 +1,207 @@
+//! `octruss info`.
+
+use super::print_figures;
+use octruss_bake::error::Result;
+use octruss_bake::inspect::{Histogram, Inspection, inspect};
+use octruss_bake::read;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Prints what there is to know about a mesh
+///
+/// Cells by shape; valences of edges and vertices; creases and corners found; the boundary; cells that
+/// are inverted (negative volume), flat or folded; and the arena capacities that refining the mesh on a
+/// device needs, level by level.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
+    mesh: PathBuf,
+    /// File with creases and corners: a line each, `crease A B` or `corner A`
+    #[arg(long, value_name = "FILE")]
+    features: Option<PathBuf>,
+    /// Levels of refinement to list capacities for
+    #[arg(long, value_name = "K", default_value_t = 3)]
+    levels: u32,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
+    let inspection =
+        inspect(&mesh, arguments.levels).map_err(|error| error.in_file(&arguments.mesh))?;
+    print_figures(&inspection, arguments.json, || words(&inspection))
+}
+
+/// The figures as text. Writing to a string cannot fail.
+fn words(inspection: &Inspection) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, content: String| {
+        let _ = writeln!(text, "{name:<28}{content}");
+    };
+    line("vertices", inspection.vertices.to_string());
+    line(
+        "cells",
+        format!(
+            "{} tetrahedra, {} octahedra",
+            inspection.tetrahedra, inspection.octahedra
+        ),
+    );
+    line(
+        "edges, faces",
+        format!("{}, {}", inspection.edges, inspection.faces),
+    );
+    if let Some([low, high]) = inspection.bounds {
+        line("extent", format!("{low:?} to {high:?}"));
+    }
+    line(
+        "interior edges",
+        histogram(&inspection.interior_edge_valences, "cells"),
+    );
+    line(
+        "boundary edges",
+        histogram(&inspection.boundary_edge_valences, "cells"),
+    );
+    line(
+        "interior vertices",
+        histogram(&inspection.interior_vertex_valences, "cells"),
+    );
+    line(
+        "boundary vertices",
+        histogram(&inspection.boundary_vertex_valences, "cells"),
+    );
+    line(
+        "",
+        histogram(&inspection.surface_vertex_valences, "boundary edges"),
+    );
+    line(
+        "boundary",
+        format!(
+            "{} triangles, {} edges",
+            inspection.boundary_triangles, inspection.boundary_edges
+        ),
+    );
+    line("creases", format!("{} edges", inspection.creases));
+    if inspection.creases > 0 {
+        line(
+            "  their vertices",
+            histogram(&inspection.crease_vertex_valences, "crease edges"),
+        );
+    }
+    line("corners", inspection.corners.to_string());
+    for (name, cells) in [
+        ("inverted cells", &inspection.inverted_cells),
+        ("flat cells", &inspection.flat_cells),
+        ("folded octahedra", &inspection.folded_cells),
+    ] {
+        line(name, some(cells));
+    }
+    capacities(&mut text, inspection);
+    for note in &inspection.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    for warning in warnings(inspection) {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    text.truncate(text.trim_end().len());
+    text
+}
+
+/// "12 with 4 cells, 3 with 6".
+fn histogram(histogram: &Histogram, what: &str) -> String {
+    let total: usize = histogram.values().sum();
+    let entries: Vec<String> = histogram
+        .iter()
+        .map(|(valence, number)| format!("{number} with {valence}"))
+        .collect();
+    match entries.as_slice() {
+        [] => "0".to_owned(),
+        entries => format!("{total}: {} {what}", entries.join(", ")),
+    }
+}
+
+/// How many, and the first few.
+fn some(names: &[String]) -> String {
+    const SHOWN: usize = 5;
+    let shown: Vec<&str> = names.iter().take(SHOWN).map(String::as_str).collect();
+    match names.len() {
+        0 => "0".to_owned(),
+        number if number > SHOWN => format!("{number}: {}, ...", shown.join(", ")),
+        number => format!("{number}: {}", shown.join(", ")),
+    }
+}
+
+fn capacities(text: &mut String, inspection: &Inspection) {
+    let _ = writeln!(
+        text,
+        "\ncapacities: SolidArena<T, O, S, C, K> holds a level, Scratch<_, E, O, V> refines it\n\
+         level   vertices          T          O          S          C          K          E          V"
+    );
+    for row in &inspection.capacities {
+        let _ = writeln!(
+            text,
+            "{:>5} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
+            row.level,
+            row.vertices,
+            row.tetrahedra,
+            row.octahedra,
+            row.surface,
+            row.creases,
+            row.corners,
+            row.scratch_edges,
+            row.scratch_vertices
+        );
+    }
+    if let Some(first) = inspection.capacities.first() {
+        let _ = writeln!(
+            text,
+            "finding the boundary of level 0 takes a scratch of {} faces\n",
+            first.faces_to_find_boundary
+        );
+    }
+}
+
+fn warnings(inspection: &Inspection) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let edges: Vec<String> = inspection
+        .interior_edges_of_valence_3
+        .iter()
+        .map(|[a, b]| format!("{a}-{b}"))
+        .collect();
+    if !edges.is_empty() {
+        warnings.push(format!(
+            "interior edges of three cells, along which the scheme is not smooth: {}",
+            some(&edges)
+        ));
+    }
+    if inspection.irregular_boundary_edges > 0 {
+        warnings.push(format!(
+            "{} boundary edges do not belong to exactly two boundary triangles: the boundary touches itself there",
+            inspection.irregular_boundary_edges
+        ));
+    }
+    let unused: Vec<String> = inspection
+        .unused_vertices
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    if !unused.is_empty() {
+        warnings.push(format!(
+            "vertices of no cell, control points that move nothing: {}",
+            some(&unused)
+        ));
+    }
+    let bad = [
+        &inspection.inverted_cells,
+        &inspection.flat_cells,
+        &inspection.folded_cells,
+    ];
+    if bad.iter().any(|cells| !cells.is_empty()) {
+        warnings.push(
+            "inverted, flat and folded cells are refused by `octruss bake`; a cell that is only listed in the other order is mended by exchanging two of its corners".to_owned(),
+        );
+    }
+    warnings
+}

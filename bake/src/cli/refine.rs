@@ -1,0 +1,166 @@
+//! `octruss refine`.
+
+use super::{print_figures, progress::Bars, show_notes};
+use octruss_bake::check::{self, Volumes};
+use octruss_bake::error::{Error, Result};
+use octruss_bake::mesh::{Features, SolidMesh};
+use octruss_bake::progress::Progress;
+use octruss_bake::refine::{BoundaryRule, Level, Refinement, Scheme};
+use octruss_bake::table::format::{Format, MOST_FRACTION_BITS};
+use octruss_bake::{read, write};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// The numbers that a refinement is computed with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Numeric {
+    /// Double precision, not held to any grid
+    F64,
+    /// The device's fixed-point numbers, to the bit
+    Fixed,
+}
+
+/// Refines a mesh and writes the refined one
+///
+/// The output is a solid as .vtu (octahedra as polyhedra, all vertices in the refined order), or its
+/// boundary as .obj (the triangles and their vertices, in the refined order).
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
+    mesh: PathBuf,
+    /// The subdivision scheme
+    #[arg(long, value_enum, default_value_t)]
+    scheme: Scheme,
+    /// How many times to refine; a level has about eight times the cells of the one before
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    levels: u32,
+    /// What the boundary follows
+    #[arg(long, value_enum, default_value_t)]
+    boundary: BoundaryRule,
+    /// The numbers to compute with
+    #[arg(long, value_enum, default_value = "f64")]
+    numeric: Numeric,
+    /// With --numeric fixed: bits after the point of the 32-bit coordinates, 0 to 32; by default as
+    /// many as leave two bits of headroom over the mesh's largest coordinate
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_FRACTION_BITS)))]
+    fraction_bits: Option<u32>,
+    /// File with creases and corners: a line each, `crease A B` or `corner A`
+    #[arg(long, value_name = "FILE")]
+    features: Option<PathBuf>,
+    /// The file to write: .vtu or .obj
+    #[arg(short, long, value_name = "OUT")]
+    output: PathBuf,
+    /// Print the figures as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is printed.
+#[derive(Serialize)]
+struct Figures {
+    levels: u32,
+    vertices: usize,
+    tetrahedra: usize,
+    octahedra: usize,
+    boundary_triangles: usize,
+    inverted_cells: usize,
+    /// Of `--numeric fixed`.
+    fraction_bits: Option<u32>,
+    saturated_coordinates: u64,
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments) -> Result<()> {
+    let extension = read::extension(&arguments.output);
+    if !matches!(extension.as_str(), "vtu" | "obj") {
+        return Err(Error::new(format!("no writer for \".{extension}\" files"))
+            .advise("a refined solid is written as .vtu, its boundary as .obj")
+            .in_file(&arguments.output));
+    }
+    let Scheme::TetOct = arguments.scheme;
+    let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
+    show_notes(&mesh.notes);
+    let (refined, level, figures) =
+        refine(mesh, arguments).map_err(|error| error.in_file(&arguments.mesh))?;
+    write::atomically(&arguments.output, |out| match extension.as_str() {
+        "vtu" => write::vtu::write(&refined, out),
+        _ => write::obj::write_used(&refined.points, &level.surface, out),
+    })?;
+    if figures.inverted_cells > 0 {
+        eprintln!(
+            "warning: {} refined cells have no positive volume",
+            figures.inverted_cells
+        );
+    }
+    if figures.saturated_coordinates > 0 {
+        eprintln!(
+            "warning: {} coordinates did not fit their range and were clamped",
+            figures.saturated_coordinates
+        );
+    }
+    print_figures(&figures, arguments.json, || words(&figures))
+}
+
+fn refine(mesh: SolidMesh, arguments: &Arguments) -> Result<(SolidMesh, Level, Figures)> {
+    check::require_sound_connectivity(&mesh)?;
+    let mut level = Level::new(&mesh)?;
+    let format = match arguments.fraction_bits {
+        Some(fraction_bits) => Format { fraction_bits },
+        None => Format::with_headroom(&mesh.points),
+    };
+    let is_fixed = arguments.numeric == Numeric::Fixed;
+    let mut bits = if is_fixed {
+        format.bits_of(&mesh.points, "the mesh's vertex")?
+    } else {
+        Vec::new()
+    };
+    let (mut points, mut saturated) = (mesh.points, 0);
+    let mut progress = Bars::default();
+    progress.stage("refining", arguments.levels as usize);
+    for _ in 0..arguments.levels {
+        let mut step = Refinement::new(&level, arguments.boundary.to_core())?;
+        if is_fixed {
+            bits = step.bits(&bits, &mut saturated)?;
+        } else {
+            points = step.points(&points)?;
+        }
+        level = step.split()?;
+        progress.step();
+    }
+    progress.finish();
+    if is_fixed {
+        points = format.points_of(&bits);
+    }
+    let refined = SolidMesh {
+        points,
+        cells: level.cells.clone(),
+        features: Features {
+            creases: level.creases.clone(),
+            corners: level.corners.clone(),
+        },
+        notes: Vec::new(),
+    };
+    let volumes = Volumes::of(&refined);
+    let figures = Figures {
+        levels: arguments.levels,
+        vertices: refined.points.len(),
+        tetrahedra: level.cells.tetrahedra.len(),
+        octahedra: level.cells.octahedra.len(),
+        boundary_triangles: level.surface.len(),
+        inverted_cells: volumes.inverted.len() + volumes.flat.len() + volumes.folded.len(),
+        fraction_bits: is_fixed.then_some(format.fraction_bits),
+        saturated_coordinates: saturated,
+    };
+    Ok((refined, level, figures))
+}
+
+fn words(figures: &Figures) -> String {
+    let mut text = format!(
+        "{} vertices, {} tetrahedra, {} octahedra, {} boundary triangles",
+        figures.vertices, figures.tetrahedra, figures.octahedra, figures.boundary_triangles
+    );
+    if let Some(bits) = figures.fraction_bits {
+        text += &format!(", {bits} fraction bits");
+    }
+    text
+}

@@ -1,0 +1,112 @@
+//! Applies a bundle on the host, with the device's own code.
+
+use crate::bundle::{cage_checksum, model_checksum};
+use crate::error::{Error, Result};
+use crate::mesh::{Point, SolidMesh};
+use crate::read::obj::Model;
+use crate::table::format::Format;
+use octruss::bundle::Bundle;
+use std::io::Write;
+
+/// Which of the table's two forms is applied.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Form {
+    /// Rest model plus weighted displacements: gives the rest model to the bit at rest
+    #[default]
+    Displacement,
+    /// Weighted positions alone
+    Absolute,
+}
+
+/// A deformed model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deformed {
+    /// The device's bits, a point for each row.
+    pub bits: Vec<[i32; 3]>,
+    /// How many coordinates did not fit and were clamped to the end of their range.
+    pub saturated: u32,
+}
+
+/// The coordinate format of a bundle.
+pub fn format_of(bundle: &Bundle<'_>) -> Format {
+    Format {
+        fraction_bits: bundle.header().fraction_bits.get(),
+    }
+}
+
+/// Applies the table to a pose in raw bits, a point for each control point.
+///
+/// # Errors
+/// If the pose has another number of points than the bundle's cage.
+pub fn deform(bundle: &Bundle<'_>, pose: &[[i32; 3]], form: Form) -> Result<Deformed> {
+    let failed = |error: &dyn std::error::Error| Error::new(error.to_string());
+    // Raw bits fit every format.
+    let table = bundle.table::<i32>().map_err(|error| failed(&error))?;
+    let mut bits = vec![[0; 3]; table.rows()];
+    let applied = match form {
+        Form::Displacement => table.apply(0..table.rows(), pose, &mut bits),
+        Form::Absolute => table.apply_absolute(0..table.rows(), pose, &mut bits),
+    };
+    let saturated = applied.map_err(|error| failed(&error))?;
+    Ok(Deformed { bits, saturated })
+}
+
+/// The bits of a pose in the bundle's format.
+///
+/// # Errors
+/// If a coordinate does not fit the format, or the number of points is not that of the cage.
+pub fn pose_bits(bundle: &Bundle<'_>, pose: &[Point]) -> Result<Vec<[i32; 3]>> {
+    if pose.len() != bundle.rest_cage().len() {
+        return Err(Error::new(format!(
+            "the pose has {} points, the bundle's cage has {}",
+            pose.len(),
+            bundle.rest_cage().len()
+        ))
+        .advise("pose the cage that the bundle was baked from"));
+    }
+    format_of(bundle).bits_of(pose, "the pose's point")
+}
+
+/// Error unless the mesh has the connectivity of the cage that the bundle was baked from.
+pub fn require_cage(bundle: &Bundle<'_>, mesh: &SolidMesh) -> Result<()> {
+    if cage_checksum(mesh.points.len(), &mesh.cells) == bundle.header().cage_checksum.get() {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "the mesh ({} vertices, {} cells) has not the connectivity of the cage that the bundle was baked from ({} vertices)",
+        mesh.points.len(),
+        mesh.cells.len(),
+        bundle.rest_cage().len()
+    ))
+    .advise("a pose is the cage itself with its vertices moved: same vertices, same cells, same order"))
+}
+
+/// Error unless the model is the one that the bundle was baked for, at rest.
+pub fn require_model(bundle: &Bundle<'_>, model: &Model) -> Result<()> {
+    if model_checksum(&model.points) == bundle.header().model_checksum.get() {
+        return Ok(());
+    }
+    let rows = bundle.header().rows.get();
+    let what = if usize::try_from(rows).is_ok_and(|rows| rows == model.points.len()) {
+        format!("its {rows} vertices stand elsewhere")
+    } else {
+        format!(
+            "it has {} vertices, the bundle has {rows} rows",
+            model.points.len()
+        )
+    };
+    Err(Error::new(format!(
+        "this is not the model that the bundle was baked for: {what}"
+    ))
+    .advise("give the model that was baked, at rest, or bake again"))
+}
+
+/// Writes raw poses for firmware: for each frame and each control point x, y and z as 32-bit
+/// integers in the bundle's format, least significant byte first, nothing before, between or after.
+pub fn write_poses(frames: &[Vec<[i32; 3]>], out: &mut dyn Write) -> Result<()> {
+    for coordinate in frames.iter().flatten().flatten() {
+        out.write_all(&coordinate.to_le_bytes())
+            .map_err(crate::write::failed)?;
+    }
+    Ok(())
+}

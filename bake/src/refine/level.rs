@@ -1,0 +1,208 @@
+//! One level of a solid in memory, and the step to the next.
+
+use super::RealBlend;
+use crate::error::{Error, Result};
+use crate::mesh::{Cells, Point, SolidMesh};
+use octruss::blend::{Blend, FixedBlend};
+use octruss::mesh::{
+    Counts, MeshError, Numbering, Part, Solid, SolidBuffers, boundary_triangles, edge_capacity,
+    face_capacity,
+};
+use octruss::solid::tet_oct::{
+    Boundary, PointBuffers, VertexState, refine_points, split, split_counts,
+};
+
+/// Connectivity of a solid at one level of refinement, owned.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Level {
+    /// Number of vertices.
+    pub vertex_count: u32,
+    /// The cells.
+    pub cells: Cells,
+    /// Boundary triangles, counter-clockwise from outside.
+    pub surface: Vec<[u32; 3]>,
+    /// Crease edges.
+    pub creases: Vec<[u32; 2]>,
+    /// Corners.
+    pub corners: Vec<u32>,
+}
+
+impl Level {
+    /// The solid as it stands in its file, with its boundary found.
+    pub fn new(mesh: &SolidMesh) -> Result<Self> {
+        let vertex_count = u32::try_from(mesh.points.len())
+            .map_err(|_| Error::new("the mesh has more than 2^32 - 1 vertices"))?;
+        let mut level = Self {
+            vertex_count,
+            cells: mesh.cells.clone(),
+            surface: Vec::new(),
+            creases: mesh.features.creases.clone(),
+            corners: mesh.features.corners.clone(),
+        };
+        let solid = level.solid();
+        let faces = face_capacity(&solid).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
+        let mut scratch = vec![[0; 3]; faces];
+        level.surface = boundary_triangles(&solid, &mut scratch)
+            .map_err(mesh_error)?
+            .to_vec();
+        // Checks that every crease is an edge of a cell before any work is done.
+        EdgeMemory::new(&level.solid())?.number(&level.solid())?;
+        Ok(level)
+    }
+
+    /// The view that core takes.
+    pub fn solid(&self) -> Solid<'_> {
+        Solid {
+            vertex_count: self.vertex_count,
+            tetrahedra: &self.cells.tetrahedra,
+            octahedra: &self.cells.octahedra,
+            surface: &self.surface,
+            creases: &self.creases,
+            corners: &self.corners,
+            ..Solid::default()
+        }
+    }
+
+    /// Numbers of everything, edges and faces included.
+    pub fn counts(&self) -> Result<Counts> {
+        let solid = self.solid();
+        let mut memory = EdgeMemory::new(&solid)?;
+        let edges = memory.number(&solid)?.edges().len();
+        // A face belongs to one cell on the boundary, else to two.
+        let of_cells = face_capacity(&solid).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
+        Ok(Counts {
+            vertices: self.vertex_count as usize,
+            edges,
+            faces: (of_cells + self.surface.len()) / 2,
+            tetrahedra: self.cells.tetrahedra.len(),
+            octahedra: self.cells.octahedra.len(),
+            surface: self.surface.len(),
+            creases: self.creases.len(),
+            corners: self.corners.len(),
+        })
+    }
+}
+
+/// Memory for the numbering of one split.
+struct EdgeMemory {
+    edges: Vec<[u32; 2]>,
+    octahedra: Vec<u32>,
+}
+
+impl EdgeMemory {
+    fn new(solid: &Solid<'_>) -> Result<Self> {
+        let edges = edge_capacity(solid).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
+        Ok(Self {
+            edges: vec![[0; 2]; edges],
+            octahedra: vec![0; solid.octahedra.len()],
+        })
+    }
+
+    fn number(&mut self, solid: &Solid<'_>) -> Result<Numbering<'_>> {
+        Numbering::new(solid, &mut self.edges, &mut self.octahedra).map_err(mesh_error)
+    }
+}
+
+/// A step from one level to the next: any values may be taken along it.
+pub struct Refinement<'a> {
+    from: &'a Level,
+    memory: EdgeMemory,
+    boundary: Boundary,
+}
+
+impl<'a> Refinement<'a> {
+    /// Prepares the step from `from`.
+    pub fn new(from: &'a Level, boundary: Boundary) -> Result<Self> {
+        Ok(Self {
+            from,
+            memory: EdgeMemory::new(&from.solid())?,
+            boundary,
+        })
+    }
+
+    /// The connectivity of the next level.
+    pub fn split(&mut self) -> Result<Level> {
+        let solid = self.from.solid();
+        let numbering = self.memory.number(&solid)?;
+        let counts =
+            split_counts(&solid, &numbering).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
+        let mut next = Level {
+            vertex_count: numbering.vertex_count(),
+            cells: Cells {
+                tetrahedra: vec![[0; 4]; counts.tetrahedra],
+                octahedra: vec![[0; 6]; counts.octahedra],
+            },
+            surface: vec![[0; 3]; counts.surface],
+            creases: vec![[0; 2]; counts.creases],
+            corners: vec![0; counts.corners],
+        };
+        let buffers = SolidBuffers {
+            tetrahedra: &mut next.cells.tetrahedra,
+            octahedra: &mut next.cells.octahedra,
+            surface: &mut next.surface,
+            creases: &mut next.creases,
+            corners: &mut next.corners,
+        };
+        split(&solid, &numbering, buffers).map_err(mesh_error)?;
+        Ok(next)
+    }
+
+    /// The values at the next level's vertices.
+    pub fn values<B: Blend>(
+        &mut self,
+        blend: &mut B,
+        values: &[B::Point],
+    ) -> Result<Vec<B::Point>> {
+        let solid = self.from.solid();
+        let numbering = self.memory.number(&solid)?;
+        let length = numbering.vertex_count() as usize;
+        let zero = blend.zero();
+        let mut out = vec![blend.divide(&zero, 1); length];
+        let buffers = PointBuffers {
+            out: &mut out,
+            sums: &mut vec![zero; length],
+            states: &mut vec![VertexState::default(); length],
+        };
+        refine_points(blend, &solid, &numbering, self.boundary, values, buffers)
+            .map_err(mesh_error)?;
+        Ok(out)
+    }
+
+    /// Positions in double precision.
+    pub fn points(&mut self, points: &[Point]) -> Result<Vec<Point>> {
+        self.values(&mut RealBlend, points)
+    }
+
+    /// Positions as the device computes them from raw bits; counts saturated coordinates.
+    pub fn bits(&mut self, bits: &[[i32; 3]], saturated: &mut u64) -> Result<Vec<[i32; 3]>> {
+        let mut blend = FixedBlend::<i32, 3>::new();
+        let out = self.values(&mut blend, bits)?;
+        *saturated += u64::from(blend.saturated());
+        Ok(out)
+    }
+}
+
+/// Core's complaint about a mesh in the words of a file's user.
+fn mesh_error(error: MeshError) -> Error {
+    match error {
+        MeshError::NotAnEdge {
+            part: Part::Crease,
+            edge: [a, b],
+            ..
+        } => Error::new(format!(
+            "the crease from vertex {a} to vertex {b} (counted from 0) is no edge of a cell"
+        ))
+        .advise("a crease runs along edges of the mesh; mesh the curve together with the volume"),
+        MeshError::RepeatedVertex {
+            part,
+            index,
+            vertex,
+        } => Error::new(format!(
+            "{part} {index} (counted from 0) names vertex {vertex} twice"
+        ))
+        .advise("remove the degenerate cell"),
+        MeshError::TooLarge => Error::new("the refined mesh needs more than 2^32 - 1 vertices")
+            .advise("take fewer levels"),
+        other => Error::new(other.to_string()),
+    }
+}

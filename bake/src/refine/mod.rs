@@ -1,0 +1,66 @@
+//! Refinement on the host: core's own subdivision over vectors.
+//!
+//! Which vertices a split adds, how they are numbered and which weights make them is core's
+//! business alone. This module lends core the memory ([`Level`]) and brings the value types that
+//! only the host has: double precision ([`RealBlend`]) and sparse rows ([`rows`]).
+
+mod level;
+mod real;
+pub mod rows;
+
+pub use level::{Level, Refinement};
+pub use real::RealBlend;
+
+use octruss::solid::tet_oct::Boundary;
+use octruss::surface::LoopWeights;
+
+/// What the boundary of a solid follows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BoundaryRule {
+    /// Loop's scheme with its weights of 1987
+    #[default]
+    Loop,
+    /// Loop's scheme with Warren's weights: 3/(8n), and 3/16 at n = 3
+    LoopWarren,
+    /// Loop's scheme with 3/(8n) at every valence, as the triangle/quadrilateral scheme has it
+    TriQuad,
+    /// No rule of its own: the interior smoothing everywhere; the boundary shrinks
+    Interior,
+    /// The boundary polyhedron stays as it is
+    Fixed,
+}
+
+impl BoundaryRule {
+    /// The rule as core takes it.
+    pub fn to_core(self) -> Boundary {
+        match self {
+            Self::Loop => Boundary::Surface(LoopWeights::Loop),
+            Self::LoopWarren => Boundary::Surface(LoopWeights::Warren),
+            Self::TriQuad => Boundary::Surface(LoopWeights::TriQuad),
+            Self::Interior => Boundary::Interior,
+            Self::Fixed => Boundary::Fixed,
+        }
+    }
+
+    /// The rule's number in a bundle's header.
+    pub fn code(self) -> u32 {
+        use octruss::bundle as b;
+        match self {
+            Self::Loop => b::BOUNDARY_LOOP,
+            Self::LoopWarren => b::BOUNDARY_LOOP_WARREN,
+            Self::TriQuad => b::BOUNDARY_TRI_QUAD,
+            Self::Interior => b::BOUNDARY_INTERIOR,
+            Self::Fixed => b::BOUNDARY_FIXED,
+        }
+    }
+}
+
+/// The subdivision scheme of a solid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// Smooth subdivision of tetrahedra and octahedra (Schaefer, Hakenberg, Warren)
+    #[default]
+    TetOct,
+}

@@ -1,0 +1,294 @@
+//! Baking: from a cage and a model to a table of integer weights.
+//!
+//! The cage at rest is refined in double precision ([`crate::refine`]), every model point is located
+//! in a cell of the last level ([`crate::locate`]), and its weights there are carried back to the control
+//! points: `D = B * S_K * ... * S_1`, equation (1) of "Smooth Subdivision of Tetrahedral Meshes". The
+//! real weights become integers that sum to one ([`quantise`]); [`precision`] says what that costs;
+//! [`crate::bundle`] writes the bytes.
+
+pub mod format;
+pub mod precision;
+pub mod quantise;
+mod report;
+
+pub use report::{LargestRow, OutsideReport, Report, TapsReport, WeightsReport};
+
+use crate::bundle::{self, Contents, LONGEST_UNIT};
+use crate::check;
+use crate::error::{Error, Result, count};
+use crate::locate::{Embedding, Locator};
+use crate::mesh::{Point, SolidMesh};
+use crate::progress::Progress;
+use crate::refine::rows::{Row, RowBlend, compose, composition_error, identity};
+use crate::refine::{BoundaryRule, Level, Refinement, Scheme};
+use format::{Format, MOST_FRACTION_BITS};
+use precision::Table;
+use quantise::{QuantisedRow, quantise};
+
+/// What to do with a model point outside the refined cage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outside {
+    /// Refuse, and say how many there are and how far the farthest lies outside
+    #[default]
+    Error,
+    /// Move with the nearest point of the refined cage's boundary
+    Nearest,
+    /// Extrapolate the coordinates in the cell behind the nearest point of the boundary
+    Extrapolate,
+}
+
+/// How to bake.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// What the boundary follows.
+    pub boundary: BoundaryRule,
+    /// How many times the cage is refined.
+    pub levels: u32,
+    /// Fraction bits of the coordinates, 0 to 32; by default as many as leave two bits of headroom
+    /// over the largest coordinate of cage and model.
+    pub fraction_bits: Option<u32>,
+    /// Name of the unit of cage and model, at most 16 bytes.
+    pub unit: String,
+    /// What to do with points outside.
+    pub outside: Outside,
+    /// Random poses on which the table's error is measured.
+    pub random_poses: u32,
+    /// Where their random numbers start from.
+    pub seed: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            scheme: Scheme::TetOct,
+            boundary: BoundaryRule::Loop,
+            levels: 2,
+            fraction_bits: None,
+            unit: String::new(),
+            outside: Outside::Error,
+            random_poses: 4,
+            seed: 0,
+        }
+    }
+}
+
+/// What baking gives.
+#[derive(Clone, Debug)]
+pub struct Baked {
+    /// The bundle's bytes.
+    pub bundle: Vec<u8>,
+    /// The real weights, a row for each model point.
+    pub rows: Vec<Row>,
+    /// What there is to say about it.
+    pub report: Report,
+}
+
+/// Bakes the table that moves the points of a model with a cage.
+///
+/// # Errors
+/// If the cage is no sound solid, an option is out of range, or a model point cannot be embedded.
+pub fn bake(
+    cage: &SolidMesh,
+    model: &[Point],
+    options: &Options,
+    progress: &mut dyn Progress,
+) -> Result<Baked> {
+    check::require_sound_connectivity(cage)?;
+    check::require_positive_volumes(cage)?;
+    let format = choose_format(cage, model, options)?;
+    let rest_cage = format.bits_of(&cage.points, "the cage's vertex")?;
+    let rest_model = format.bits_of(model, "the model's vertex")?;
+
+    let refined = refine(cage, options, progress)?;
+    let (embeddings, outside) = locate(&refined, model, options.outside, format, progress)?;
+    progress.stage("composing rows", 1);
+    let rows = compose(&embeddings, &refined.matrices, refined.control_points);
+    let composition = composition_error(&embeddings, &refined.matrices);
+    progress.step();
+    let quantised = quantise_all(&rows, progress)?;
+
+    let bytes = bundle::write(&Contents {
+        format,
+        unit: &options.unit,
+        scheme: options.scheme,
+        boundary: options.boundary,
+        levels: options.levels,
+        rest_cage: &rest_cage,
+        rest_model: &rest_model,
+        rows: &quantised,
+        cage_checksum: bundle::cage_checksum(cage.points.len(), &cage.cells),
+        model_checksum: bundle::model_checksum(model),
+    })?;
+    progress.stage("measuring the error", 1);
+    let table = Table {
+        rows: &rows,
+        quantised: &quantised,
+        rest_cage: &rest_cage,
+        composition,
+    };
+    let precision = table.precision(options.random_poses, options.seed);
+    progress.finish();
+    let report = Report {
+        scheme: options.scheme,
+        boundary: options.boundary,
+        levels: options.levels,
+        unit: options.unit.clone(),
+        fraction_bits: format.fraction_bits,
+        control_points: cage.points.len(),
+        cells: cage.cells.len(),
+        refined_cells: refined.last.cells.len(),
+        rows: quantised.len(),
+        taps: TapsReport::of(&quantised),
+        bytes: bytes.len(),
+        weights: WeightsReport::of(&quantised),
+        outside,
+        precision,
+    };
+    Ok(Baked {
+        bundle: bytes,
+        rows,
+        report,
+    })
+}
+
+fn choose_format(cage: &SolidMesh, model: &[Point], options: &Options) -> Result<Format> {
+    if model.is_empty() {
+        return Err(Error::new("the model has no points"));
+    }
+    if options.unit.len() > LONGEST_UNIT || options.unit.contains('\0') {
+        return Err(
+            Error::new(format!("the unit's name \"{}\" is too long", options.unit)).advise(
+                format!("a unit has at most {LONGEST_UNIT} bytes, such as \"mm\""),
+            ),
+        );
+    }
+    if u16::try_from(cage.points.len().saturating_sub(1)).is_err() {
+        return Err(Error::new(format!(
+            "the cage has {} control points; a table has at most 65536",
+            cage.points.len()
+        ))
+        .advise("take a coarser cage"));
+    }
+    match options.fraction_bits {
+        None => Ok(Format::with_headroom(cage.points.iter().chain(model))),
+        Some(fraction_bits @ 0..=MOST_FRACTION_BITS) => Ok(Format { fraction_bits }),
+        Some(other) => Err(
+            Error::new(format!("{other} fraction bits do not fit a coordinate"))
+                .advise(format!("take 0 to {MOST_FRACTION_BITS}")),
+        ),
+    }
+}
+
+/// The refined cage and how it came about.
+struct Refined {
+    last: Level,
+    points: Vec<Point>,
+    /// One matrix for each level, the first level first.
+    matrices: Vec<Vec<Row>>,
+    control_points: u32,
+}
+
+fn refine(cage: &SolidMesh, options: &Options, progress: &mut dyn Progress) -> Result<Refined> {
+    let mut level = Level::new(cage)?;
+    let control_points = level.vertex_count;
+    let (mut points, mut matrices) = (cage.points.clone(), Vec::new());
+    progress.stage("refining", options.levels as usize);
+    for _ in 0..options.levels {
+        let mut step = Refinement::new(&level, options.boundary.to_core())?;
+        points = step.points(&points)?;
+        matrices.push(step.values(&mut RowBlend, &identity(level.vertex_count))?);
+        level = step.split()?;
+        progress.step();
+    }
+    Ok(Refined {
+        last: level,
+        points,
+        matrices,
+        control_points,
+    })
+}
+
+/// The points as weighted sums of refined vertices.
+fn locate(
+    refined: &Refined,
+    model: &[Point],
+    outside: Outside,
+    format: Format,
+    progress: &mut dyn Progress,
+) -> Result<(Vec<Embedding>, OutsideReport)> {
+    progress.stage("locating points", model.len());
+    let locator = Locator::new(&refined.last.cells, &refined.last.surface, &refined.points);
+    let mut report = OutsideReport {
+        treatment: outside,
+        ..OutsideReport::default()
+    };
+    let mut embeddings = Vec::with_capacity(model.len());
+    for (index, point) in model.iter().enumerate() {
+        let embedding = match locator.inside(*point) {
+            Some(embedding) => embedding,
+            None => {
+                let lost = || {
+                    Error::new(format!(
+                        "model point {index} (counted from 0) lies in no cell"
+                    ))
+                };
+                let nearest = locator.nearest(*point).ok_or_else(lost)?;
+                let embedding = match outside {
+                    // The bits could not tell such a point from one on the boundary.
+                    _ if nearest.distance <= format.unit() => {
+                        report.on_boundary += 1;
+                        locator.extrapolated(&nearest, *point)
+                    }
+                    Outside::Extrapolate => {
+                        report.add(index, nearest.distance);
+                        locator.extrapolated(&nearest, *point)
+                    }
+                    Outside::Error | Outside::Nearest => {
+                        report.add(index, nearest.distance);
+                        Some(locator.projected(&nearest))
+                    }
+                };
+                embedding.ok_or_else(lost)?
+            }
+        };
+        embeddings.push(embedding);
+        progress.step();
+    }
+    if outside == Outside::Error
+        && let Some(farthest) = report.farthest
+    {
+        progress.finish();
+        return Err(Error::new(format!(
+            "{} of {} outside the refined cage; the farthest, point {farthest} (counted from 0), by {}",
+            report.count,
+            count(model.len(), "model point lies", "model points lie"),
+            report.farthest_distance
+        ))
+        .advise(
+            "the smooth scheme pulls the boundary inward: enlarge the cage, or take --boundary fixed, or choose --outside nearest or --outside extrapolate",
+        ));
+    }
+    Ok((embeddings, report))
+}
+
+fn quantise_all(rows: &[Row], progress: &mut dyn Progress) -> Result<Vec<QuantisedRow>> {
+    progress.stage("quantising weights", rows.len());
+    let quantised = rows.iter().enumerate().map(|(index, row)| {
+        progress.step();
+        quantise(row).map_err(|error| {
+            let message = format!(
+                "model point {index} (counted from 0) cannot be baked: {}",
+                error.message()
+            );
+            Error::new(message).advise(
+                error
+                    .advice()
+                    .unwrap_or("the cage's geometry is too far from regular"),
+            )
+        })
+    });
+    quantised.collect()
+}
