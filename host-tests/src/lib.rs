@@ -1,10 +1,25 @@
 //! The independent f64 reference of octruss and what holds host, devices and
 //! reference against one another.
 //!
+//! - [`reference`] is paper 1 written again, in double precision that is exact by
+//!   construction. It shares nothing with the crate that it judges.
+//! - [`meshes`] builds the named meshes that the papers' figures belong to.
+//! - [`rational`] and [`subject`] drive the crate under test on the host: in raw bits between
+//!   guard words, and over rows of rational numbers, so that it hands out its exact masks.
+//! - [`local`] and [`spectrum`] make subdivision matrices of neighbourhoods and analyse them.
+//! - [`random_mesh`] and [`random_table`] draw the random cases, from a seed alone.
 //! - [`reference_surface`] is the surface schemes written again, in double precision that is exact
 //!   by construction; [`random_surface`] draws control meshes from a seed, and
 //!   [`surface_subject`] drives the crate under test on them.
 
+pub mod local;
+pub mod meshes;
+pub mod random_mesh;
 pub mod random_surface;
+pub mod random_table;
+pub mod rational;
+pub mod reference;
 pub mod reference_surface;
+pub mod spectrum;
+pub mod subject;
 pub mod surface_subject;
