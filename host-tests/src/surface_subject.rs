@@ -4,7 +4,7 @@
 use octruss::blend::{Blend, FixedBlend};
 use octruss::mesh::{ControlMesh, ControlMeshBuffers, FaceOrder, MeshError, Side, SurfaceEdges};
 use octruss::surface::{
-    LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, catmull_clark, loop_scheme,
+    LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, catmull_clark, loop_scheme, sqrt3,
 };
 
 use crate::reference_surface::{Border, Family, Polygons};
@@ -88,6 +88,8 @@ pub enum Scheme {
     CatmullClark,
     /// Loop's with a weight family.
     Loop(Family),
+    /// Kobbelt's square-root-3 scheme.
+    Sqrt3,
 }
 
 /// The crate's name for a rim.
@@ -134,6 +136,33 @@ impl<B: Blend> Memory<B> {
     }
 }
 
+/// Memory for the numbering of a square-root-3 step.
+#[derive(Default)]
+struct Sqrt3Memory {
+    states: Vec<VertexState>,
+    edge_vertices: Vec<u32>,
+    face_vertices: Vec<u32>,
+}
+
+impl Sqrt3Memory {
+    fn new(mesh: &ControlMesh<'_>, edges: &SurfaceEdges<'_>) -> Self {
+        let edge_count = edges.count() as usize;
+        Self {
+            states: vec![VertexState::default(); mesh.vertex_count as usize + edge_count],
+            edge_vertices: vec![0; edge_count],
+            face_vertices: vec![0; mesh.face_count()],
+        }
+    }
+
+    fn buffers(&mut self) -> sqrt3::NumberingBuffers<'_> {
+        sqrt3::NumberingBuffers {
+            states: &mut self.states,
+            edge_vertices: &mut self.edge_vertices,
+            face_vertices: &mut self.face_vertices,
+        }
+    }
+}
+
 /// One level of any value type.
 pub fn refine<B: Blend>(
     blend: &mut B,
@@ -149,32 +178,39 @@ pub fn refine<B: Blend>(
     let mut order = vec![0; mesh.face_count()];
     let order = FaceOrder::new(&mesh, &mut order)?;
     let rim = rim(border);
-    let counts = match scheme {
-        Scheme::CatmullClark => catmull_clark::split_counts(&mesh, &edges),
-        Scheme::Loop(_) => loop_scheme::split_counts(&mesh, &edges),
-    }
-    .ok_or(MeshError::TooLarge)?;
-    let mut refined = Lists::of_counts(&counts);
-    let buffers = refined.buffers();
-    let next = match scheme {
-        Scheme::CatmullClark => catmull_clark::split(&mesh, &edges, &order, buffers)?,
-        Scheme::Loop(_) => loop_scheme::split(&mesh, &edges, buffers)?,
-    };
-    let mut memory = Memory::new(blend, counts.vertices);
-    let buffers = memory.buffers();
     match scheme {
         Scheme::CatmullClark => {
+            let counts = catmull_clark::split_counts(&mesh, &edges);
+            let mut refined = Lists::of_counts(&counts.ok_or(MeshError::TooLarge)?);
+            let next = catmull_clark::split(&mesh, &edges, &order, refined.buffers())?;
+            let mut memory = Memory::new(blend, next.vertex_count as usize);
+            let buffers = memory.buffers();
             catmull_clark::refine_points(blend, &mesh, &edges, &order, rim, points, buffers)?;
+            Ok((polygons(&next), memory.out))
         }
         Scheme::Loop(family) => {
-            let weights = weights(family);
+            let counts = loop_scheme::split_counts(&mesh, &edges);
+            let mut refined = Lists::of_counts(&counts.ok_or(MeshError::TooLarge)?);
+            let next = loop_scheme::split(&mesh, &edges, refined.buffers())?;
+            let mut memory = Memory::new(blend, next.vertex_count as usize);
+            let (weights, buffers) = (weights(family), memory.buffers());
             loop_scheme::refine_points(blend, &mesh, &edges, weights, rim, points, buffers)?;
+            Ok((polygons(&next), memory.out))
+        }
+        Scheme::Sqrt3 => {
+            let mut numbers = Sqrt3Memory::new(&mesh, &edges);
+            let numbering = sqrt3::Numbering::new(&mesh, edges, &order, numbers.buffers())?;
+            let counts = sqrt3::split_counts(&mesh, &numbering);
+            let mut refined = Lists::of_counts(&counts.ok_or(MeshError::TooLarge)?);
+            let next = sqrt3::split(&mesh, &numbering, refined.buffers())?;
+            let mut memory = Memory::new(blend, next.vertex_count as usize);
+            sqrt3::refine_points(blend, &mesh, &numbering, points, memory.buffers())?;
+            Ok((polygons(&next), memory.out))
         }
     }
-    Ok((polygons(&next), memory.out))
 }
 
-/// One level in raw bits; panics if a coordinate saturated.
+/// One level in raw bits; saturated coordinates are clamped.
 pub fn refine_bits(
     scheme: Scheme,
     border: Border,
@@ -214,6 +250,56 @@ pub fn limit<B: Blend>(
             let weights = weights(family);
             loop_scheme::limit_points(blend, &mesh, &edges, weights, rim, points, buffers)?
         }
+        Scheme::Sqrt3 => {
+            let mut order = vec![0; mesh.face_count()];
+            let order = FaceOrder::new(&mesh, &mut order)?;
+            let mut numbers = Sqrt3Memory::new(&mesh, &edges);
+            let numbering = sqrt3::Numbering::new(&mesh, edges, &order, numbers.buffers())?;
+            return sqrt3::limit_points(blend, &mesh, &numbering, points, buffers)
+                .map(|limit| limit.to_vec());
+        }
     };
     Ok(limit.to_vec())
+}
+
+/// An adaptive mesh with memory on the host.
+pub struct AdaptiveMemory<P> {
+    triangles: Vec<sqrt3::adaptive::AdaptiveTriangle>,
+    vertices: Vec<sqrt3::adaptive::AdaptiveVertex>,
+    positions: Vec<P>,
+    rings: Vec<P>,
+    ring_scratch: Vec<P>,
+}
+
+impl<P: Clone> AdaptiveMemory<P> {
+    /// Memory for this many triangles and vertices.
+    pub fn new(triangles: usize, vertices: usize, rings: usize, nothing: P) -> Self {
+        Self {
+            triangles: vec![sqrt3::adaptive::AdaptiveTriangle::default(); triangles],
+            vertices: vec![sqrt3::adaptive::AdaptiveVertex::default(); vertices],
+            positions: vec![nothing.clone(); vertices],
+            rings: vec![nothing.clone(); rings],
+            ring_scratch: vec![nothing; 64],
+        }
+    }
+
+    /// Starts an adaptive mesh in this memory.
+    pub fn start<B: Blend<Point = P>>(
+        &mut self,
+        mesh: &Polygons,
+        points: &[P],
+    ) -> Result<sqrt3::adaptive::AdaptiveMesh<'_, B>, MeshError> {
+        let lists = Lists::of(mesh);
+        let mesh = lists.mesh();
+        let mut sides = vec![Side::default(); mesh.indices.len()];
+        let edges = SurfaceEdges::new(&mesh, &mut sides)?;
+        let memory = sqrt3::adaptive::AdaptiveBuffers {
+            triangles: &mut self.triangles,
+            vertices: &mut self.vertices,
+            positions: &mut self.positions,
+            rings: &mut self.rings,
+            ring_scratch: &mut self.ring_scratch,
+        };
+        sqrt3::adaptive::AdaptiveMesh::new(&mesh, &edges, points, memory)
+    }
 }

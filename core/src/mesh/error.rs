@@ -62,6 +62,18 @@ pub enum Arena {
     FaceOffsets,
     /// Corners of the refined faces.
     FaceCorners,
+    /// New vertices on edges.
+    EdgeVertices,
+    /// New vertices in faces.
+    FaceVertices,
+    /// Triangles of an adaptive mesh.
+    AdaptiveTriangles,
+    /// Vertices of an adaptive mesh.
+    AdaptiveVertices,
+    /// Ring values of an adaptive mesh.
+    AdaptiveRings,
+    /// Levels of an adaptive mesh.
+    AdaptiveLevels,
 }
 
 /// Why a mesh cannot be refined as it is, or where it is to go.
@@ -147,6 +159,31 @@ pub enum MeshError {
         /// The edge's ends.
         edge: [u32; 2],
     },
+    /// A crease or boundary edge cannot be cut in three, because its end is a corner, or the end or
+    /// a crossing of such lines.
+    NotTrisectable {
+        /// The end.
+        vertex: u32,
+    },
+    /// A triangle with two crease or boundary edges where an odd number of square-root-3 steps is
+    /// claimed.
+    TwoSharpEdges {
+        /// The face.
+        face: usize,
+    },
+    /// A mesh with a boundary or creases after an odd number of square-root-3 steps, where an even
+    /// one is needed.
+    OddBoundary,
+    /// Adaptive refinement is not defined for meshes with a boundary or creases.
+    Open {
+        /// The ends of a boundary or crease edge.
+        edge: [u32; 2],
+    },
+    /// A vertex does not have a single ring of three faces or more around it, or is a corner.
+    NotManifold {
+        /// The vertex.
+        vertex: u32,
+    },
     /// The exact mask of a vertex or of an edge has a denominator above 2^30.
     MaskTooLarge {
         /// The vertex of the mesh that is refined; for an edge its end with the lesser index.
@@ -191,6 +228,12 @@ impl fmt::Display for Arena {
             Self::FaceOrder => "face order",
             Self::FaceOffsets => "face offsets",
             Self::FaceCorners => "face corners",
+            Self::EdgeVertices => "new vertices on edges",
+            Self::FaceVertices => "new vertices in faces",
+            Self::AdaptiveTriangles => "adaptive triangles",
+            Self::AdaptiveVertices => "adaptive vertices",
+            Self::AdaptiveRings => "rings of adaptive vertices",
+            Self::AdaptiveLevels => "adaptive levels",
         })
     }
 }
@@ -263,6 +306,31 @@ impl fmt::Display for MeshError {
                 f,
                 "two faces run along the edge between vertices {a} and {b} in the same direction: \
                  orient the mesh consistently"
+            ),
+            Self::NotTrisectable { vertex } => write!(
+                f,
+                "a crease or boundary ends, crosses another or has a corner at vertex {vertex}, beside \
+                 which square-root-3 subdivision cannot cut it in three: take an odd number of steps, \
+                 or remove the feature"
+            ),
+            Self::TwoSharpEdges { face } => write!(
+                f,
+                "face {face} has two crease or boundary edges, so the mesh is not an odd number of \
+                 square-root-3 steps on"
+            ),
+            Self::OddBoundary => f.write_str(
+                "the mesh has a boundary or creases and is an odd number of square-root-3 steps on: \
+                 refine once more",
+            ),
+            Self::Open { edge: [a, b] } => write!(
+                f,
+                "the edge between vertices {a} and {b} is a boundary or a crease, where adaptive \
+                 square-root-3 refinement is not defined: close the mesh or refine it uniformly"
+            ),
+            Self::NotManifold { vertex } => write!(
+                f,
+                "vertex {vertex} does not have a single closed ring of three faces or more around it, \
+                 or is tagged as a corner"
             ),
             Self::MaskTooLarge { vertex } => write!(
                 f,

@@ -18,3 +18,11 @@ pub(super) fn irrational(real: f64) -> (i64, f64) {
     let bits = libm::floor(real * f64::from(1_u32 << WEIGHT_BITS) + 0.5) as i64;
     (bits, real)
 }
+/// `cos(2 pi step / count)`.
+#[expect(
+    clippy::float_arithmetic,
+    reason = "the cosine of an irrational weight"
+)]
+pub(super) fn cosine(step: u32, count: u32) -> f64 {
+    libm::cos(2.0 * core::f64::consts::PI * f64::from(step) / f64::from(count))
+}

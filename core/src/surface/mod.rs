@@ -8,6 +8,7 @@
 //! * [`catmull_clark`]: any polygons, quads from the first level on.
 //! * [`loop_scheme`]: triangles, with the weight families of [`loop_weights`], which the boundary
 //!   of a solid shares.
+//! * [`sqrt3`]: triangles, three for each, the square root of 3 a step; uniform and adaptive.
 //!
 //! [`features`] says what boundaries, creases and corners follow.
 
@@ -17,6 +18,7 @@ mod irrational;
 pub mod loop_scheme;
 pub mod loop_weights;
 mod split;
+pub mod sqrt3;
 
 pub use features::{PointBuffers, Rim, VertexState};
 pub use loop_weights::LoopWeights;

@@ -11,11 +11,13 @@ mod catmull_clark;
 mod loop_rule;
 mod polygons;
 mod row;
+mod sqrt3;
 
 pub use catmull_clark::{catmull_clark, catmull_clark_limit};
 pub use loop_rule::{Family, loop_limit, loop_rule};
 pub use polygons::{Border, Kind, Polygons, edge, sides};
 pub use row::{Grid, Row, WEIGHT_UNIT};
+pub use sqrt3::{sqrt3, sqrt3_limit};
 
 /// A refined mesh and the mask of each of its vertices.
 #[derive(Clone, Debug, PartialEq)]
