@@ -10,7 +10,7 @@
 //! - [`random_mesh`] and [`random_table`] draw the random cases, from a seed alone.
 //! - [`reference_surface`] is the surface schemes written again, in double precision that is exact
 //!   by construction; [`random_surface`] draws control meshes from a seed, and
-//!   [`surface_subject`] drives the crate under test on them.
+//!   [`surface_subject`] and [`surface_rows`] drive the crate under test on them.
 
 pub mod local;
 pub mod meshes;
@@ -22,4 +22,5 @@ pub mod reference;
 pub mod reference_surface;
 pub mod spectrum;
 pub mod subject;
+pub mod surface_rows;
 pub mod surface_subject;
