@@ -8,10 +8,16 @@
 //!   guard words, and over rows of rational numbers, so that it hands out its exact masks.
 //! - [`local`] and [`spectrum`] make subdivision matrices of neighbourhoods and analyse them.
 //! - [`random_mesh`] and [`random_table`] draw the random cases, from a seed alone.
+//! - [`equality`] runs core against the reference, [`compare`] says what differs, [`distance`]
+//!   measures how far both are from real numbers, [`snapshot`] keeps printed figures.
 //! - [`reference_surface`] is the surface schemes written again, in double precision that is exact
 //!   by construction; [`random_surface`] draws control meshes from a seed, and
 //!   [`surface_subject`] and [`surface_rows`] drive the crate under test on them.
 
+pub mod bundle_bytes;
+pub mod compare;
+pub mod distance;
+pub mod equality;
 pub mod local;
 pub mod meshes;
 pub mod random_mesh;
@@ -20,6 +26,7 @@ pub mod random_table;
 pub mod rational;
 pub mod reference;
 pub mod reference_surface;
+pub mod snapshot;
 pub mod spectrum;
 pub mod subject;
 pub mod surface_rows;

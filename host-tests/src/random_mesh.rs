@@ -71,9 +71,16 @@ impl RefineCase {
 
 /// A random solid with creases and corners, renumbered and reordered at random.
 pub fn random_solid(rng: &mut ChaCha8Rng, limits: &Limits) -> Solid {
+    // A vertex that no cell uses, and a triangle that no cell has, may come on top.
+    let steps_of_an_edge = (1_usize << limits.levels) + 1;
+    let reserve = 1 + steps_of_an_edge * (steps_of_an_edge + 1) / 2;
+    let vertices = limits.vertices.saturating_sub(reserve);
     let mut growth = Growth {
         solid: Solid::default(),
-        limits: *limits,
+        limits: Limits {
+            vertices,
+            ..*limits
+        },
     };
     growth.start(rng);
     let steps = rng.random_range(0..=2 * limits.cells);
@@ -93,6 +100,7 @@ pub fn random_solid(rng: &mut ChaCha8Rng, limits: &Limits) -> Solid {
         // A vertex that no cell uses.
         solid.vertex_count += 1;
     }
+    add_sheets(rng, &mut solid);
     add_features(rng, &mut solid);
     shuffle(rng, &solid)
 }
@@ -342,6 +350,38 @@ fn lattice_piece(rng: &mut ChaCha8Rng, cells: usize) -> Solid {
     solid
 }
 
+/// Tagged triangles: some between two cells, and some that no cell has.
+fn add_sheets(rng: &mut ChaCha8Rng, solid: &mut Solid) {
+    if rng.random_ratio(1, 6) {
+        let boundary = boundary_triangles(solid);
+        let shared = |cell: &[u32; 4]| {
+            let mut triangle = [cell[1], cell[2], cell[3]];
+            triangle.sort_unstable();
+            let is_boundary = boundary.iter().any(|face| {
+                let mut face = *face;
+                face.sort_unstable();
+                face == triangle
+            });
+            (!is_boundary).then_some(triangle)
+        };
+        let inside: BTreeSet<_> = solid.tetrahedra.iter().filter_map(shared).collect();
+        solid.sheets.extend(inside);
+    }
+    if rng.random_ratio(1, 12) {
+        // Hangs on an edge of the solid, or on a vertex, or on nothing.
+        let old = solid.vertex_count as u32;
+        let new = [old, old + 1, old + 2];
+        let [a, b] = *solid.edges().choose(rng).unwrap_or(&[old, old + 1]);
+        let (sheet, count) = match rng.random_range(0..3) {
+            0 => ([a, b, old], 1),
+            1 => ([a, old, old + 1], 2),
+            _ => (new, 3),
+        };
+        solid.sheets.push(sheet);
+        solid.vertex_count += count;
+    }
+}
+
 /// Creases of every kind (paths, loops, single edges, inside and on the boundary) and corners.
 fn add_features(rng: &mut ChaCha8Rng, solid: &mut Solid) {
     let edges = solid.edges();
@@ -425,6 +465,7 @@ fn shuffle(rng: &mut ChaCha8Rng, solid: &Solid) -> Solid {
         }
         shuffled.octahedra.push(cell);
     }
+    shuffled.sheets = solid.sheets.iter().map(|sheet| sheet.map(rename)).collect();
     for crease in &solid.creases {
         let [a, b] = crease.map(rename);
         shuffled
@@ -486,6 +527,7 @@ mod tests {
                 *kinds.entry(kind).or_default() += usize::from(is_there);
             };
             note("octahedra", !solid.octahedra.is_empty());
+            note("sheets", !solid.sheets.is_empty());
             note("creases", !solid.creases.is_empty());
             note("corners", !solid.corners.is_empty());
             note("three levels", case.levels == 3);
@@ -521,7 +563,9 @@ mod tests {
     #[test]
     fn counts_after_a_split_are_foretold() {
         for seed in 0..100 {
-            let solid = RefineCase::new(seed, &Limits::default()).solid;
+            let mut solid = RefineCase::new(seed, &Limits::default()).solid;
+            solid.sheets.clear();
+            solid.creases.clear();
             let refined = split(&solid).solid;
             assert_eq!(
                 Counts::of(&solid).after_split(),

@@ -33,7 +33,8 @@ pub fn core_boundary(boundary: Boundary) -> CoreBoundary {
     }
 }
 
-/// A solid with the surface triangles that core carries along with it.
+/// A solid with the surface triangles that core carries along with it: those of the boundary,
+/// then the solid's sheets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CoreSolid {
     /// Connectivity, creases and corners.
@@ -54,8 +55,9 @@ impl CoreSolid {
         };
         let needed = face_capacity(&level.view()).ok_or(MeshError::TooLarge)?;
         let mut faces = guarded(needed, [GUARD; 3]);
-        let surface = boundary_triangles(&level.view(), &mut faces)?.to_vec();
+        let mut surface = boundary_triangles(&level.view(), &mut faces)?.to_vec();
         check_guards("faces", &faces, needed, &[GUARD; 3]);
+        surface.extend_from_slice(&solid.sheets);
         level.surface = surface;
         Ok(level)
     }
@@ -149,7 +151,7 @@ where
     let mut edges = guarded(edges_needed, [GUARD; 2]);
     let mut order = guarded(view.octahedra.len(), GUARD);
     let numbering = Numbering::new(&view, &mut edges, &mut order)?;
-    let next = split_with_guards(&view, &numbering)?;
+    let next = split_with_guards(level, &numbering)?;
 
     let vertices = next.solid.vertex_count;
     let mut out = guarded(vertices, guards.point.clone());
@@ -172,10 +174,8 @@ where
     Ok((next, out))
 }
 
-fn split_with_guards(
-    view: &octruss::mesh::Solid<'_>,
-    numbering: &Numbering<'_>,
-) -> Result<CoreSolid, MeshError> {
+fn split_with_guards(level: &CoreSolid, numbering: &Numbering<'_>) -> Result<CoreSolid, MeshError> {
+    let view = &level.view();
     let counts = split_counts(view, numbering).ok_or(MeshError::TooLarge)?;
     let mut tetrahedra = guarded(counts.tetrahedra, [GUARD; 4]);
     let mut octahedra = guarded(counts.octahedra, [GUARD; 6]);
@@ -190,11 +190,13 @@ fn split_with_guards(
         corners: &mut corners,
     };
     let refined = split(view, numbering, buffers)?;
+    let of_boundary = 4 * (level.surface.len() - level.solid.sheets.len());
     let next = CoreSolid {
         solid: Solid {
             vertex_count: refined.vertex_count as usize,
             tetrahedra: refined.tetrahedra.to_vec(),
             octahedra: refined.octahedra.to_vec(),
+            sheets: refined.surface[of_boundary..].to_vec(),
             creases: refined.creases.to_vec(),
             corners: refined.corners.to_vec(),
         },

@@ -56,7 +56,8 @@ struct Rational<'a> {
     solid: &'a Solid,
     linear: &'a LinearSplit,
     boundary: Boundary,
-    boundary_faces: Vec<BTreeSet<u32>>,
+    /// Triangles with the surface rule: those of one cell only, and the sheets.
+    surface: Vec<BTreeSet<u32>>,
 }
 
 impl<'a> Rational<'a> {
@@ -65,12 +66,16 @@ impl<'a> Rational<'a> {
         for face in solid.cells().flat_map(triangles) {
             *count.entry(face).or_default() += 1;
         }
-        let boundary_faces = count.into_iter().filter(|entry| entry.1 == 1);
+        let single = count
+            .into_iter()
+            .filter(|entry| entry.1 == 1)
+            .map(|entry| entry.0);
+        let sheets = solid.sheets.iter().map(|sheet| BTreeSet::from(*sheet));
         Self {
             solid,
             linear,
             boundary,
-            boundary_faces: boundary_faces.map(|entry| entry.0).collect(),
+            surface: single.chain(sheets).collect(),
         }
     }
 
@@ -102,10 +107,7 @@ impl<'a> Rational<'a> {
         let ends = creases.flatten().filter(|end| **end != vertex);
         let ends: BTreeSet<u32> = ends.copied().collect();
         let ends: Vec<u32> = ends.into_iter().collect();
-        let faces = self
-            .boundary_faces
-            .iter()
-            .filter(|face| face.contains(&vertex));
+        let faces = self.surface.iter().filter(|face| face.contains(&vertex));
         let ring: BTreeSet<u32> = faces.flatten().copied().filter(|v| *v != vertex).collect();
         if self.solid.corners.contains(&vertex) || ends.len() > 2 {
             return mean(&[vertex]);
@@ -135,10 +137,7 @@ impl<'a> Rational<'a> {
             .creases
             .iter()
             .any(|c| BTreeSet::from(*c) == ends);
-        let faces = self
-            .boundary_faces
-            .iter()
-            .filter(|face| ends.is_subset(face));
+        let faces = self.surface.iter().filter(|face| ends.is_subset(face));
         let opposite: Vec<u32> = faces.flat_map(|face| face - &ends).collect();
         if is_crease || (self.boundary == Boundary::Fixed && !opposite.is_empty()) {
             return mean(&[a, b]);

@@ -3,7 +3,7 @@
 use super::loop_weight::LoopWeight;
 use super::solid::{Boundary, Solid, edge};
 use super::split::LinearSplit;
-use super::surface::{BoundarySurface, boundary_triangles};
+use super::surface::{BoundarySurface, surface_triangles};
 
 /// The rule of one new vertex. Indices are those of the level before.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Features {
         for corner in &solid.corners {
             is_corner[*corner as usize] = true;
         }
-        let surface = BoundarySurface::new(&boundary_triangles(solid));
+        let surface = BoundarySurface::new(&surface_triangles(solid));
         Self {
             boundary,
             surface,

@@ -57,5 +57,5 @@ pub use refine::{Refined, RefinedReal, refine, refine_real};
 pub use smooth::{OCTAHEDRON_TIMES_48, TETRAHEDRON_TIMES_48};
 pub use solid::{Boundary, CELLS_AT_A_VERTEX_MAXIMUM, Solid, SolidError};
 pub use split::{Counts, LinearSplit, split};
-pub use surface::{BoundarySurface, boundary_triangles, split_triangles};
+pub use surface::{BoundarySurface, boundary_triangles, split_triangles, surface_triangles};
 pub use table::{Applied, Table, TableError, apply_absolute, apply_displacement};

@@ -81,8 +81,8 @@ fn add_cell<const D: usize, const C: usize>(
 
 /// Numerators and denominators of the smoothed position of every vertex of a split.
 ///
-/// `newP / val` is `numerators[v] / denominators[v]`. A vertex that no cell uses keeps
-/// its place.
+/// `newP / val` is `numerators[v] / denominators[v]`. A vertex that no cell uses stays where
+/// the split puts it.
 pub(super) fn smooth<const D: usize>(
     linear: &LinearSplit,
     points: &[[f64; D]],

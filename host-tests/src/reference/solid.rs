@@ -6,7 +6,7 @@ use std::fmt;
 /// documentation); it is stated a little below the exact limit of 12 944.
 pub const CELLS_AT_A_VERTEX_MAXIMUM: usize = 12_000;
 
-/// Connectivity of a solid: cells by corner indices, crease edges and corner vertices.
+/// Connectivity of a solid: cells by corner indices, tagged triangles, crease edges and corners.
 ///
 /// An octahedron's opposite corners are `(0, 3)`, `(1, 4)` and `(2, 5)`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -17,7 +17,10 @@ pub struct Solid {
     pub tetrahedra: Vec<[u32; 4]>,
     /// Corners of the octahedra.
     pub octahedra: Vec<[u32; 6]>,
-    /// Crease edges, each an edge of at least one cell. One that is listed twice counts once.
+    /// Triangles that follow the surface rule beside those of the boundary: interior surfaces
+    /// that are to show as creases, and sheets that no cell has.
+    pub sheets: Vec<[u32; 3]>,
+    /// Crease edges, each an edge of a cell or of a sheet. One that is listed twice counts once.
     pub creases: Vec<[u32; 2]>,
     /// Corner vertices, which never move.
     pub corners: Vec<u32>,
@@ -66,9 +69,9 @@ impl Boundary {
 pub enum SolidError {
     /// A cell, crease or corner names a vertex that is not there.
     NoSuchVertex(u32),
-    /// A cell names a vertex twice.
+    /// A cell or sheet names a vertex twice.
     RepeatedCorner(u32),
-    /// A crease is not an edge of any cell.
+    /// A crease is not an edge of any cell or sheet.
     CreaseIsNoEdge([u32; 2]),
     /// More cells meet at a vertex than [`CELLS_AT_A_VERTEX_MAXIMUM`].
     TooManyCells(u32),
@@ -82,7 +85,10 @@ impl fmt::Display for SolidError {
             Self::NoSuchVertex(vertex) => write!(formatter, "there is no vertex {vertex}"),
             Self::RepeatedCorner(vertex) => write!(formatter, "a cell names vertex {vertex} twice"),
             Self::CreaseIsNoEdge([a, b]) => {
-                write!(formatter, "crease {a} {b} is not an edge of any cell")
+                write!(
+                    formatter,
+                    "crease {a} {b} is not an edge of any cell or sheet"
+                )
             }
             Self::TooManyCells(vertex) => write!(
                 formatter,
@@ -132,15 +138,19 @@ impl Solid {
         tetrahedra.chain(octahedra)
     }
 
-    /// All edges of cells, each once, lower index first, in ascending order.
+    /// All edges of cells and sheets, each once, lower index first, in ascending order.
     pub fn edges(&self) -> Vec<[u32; 2]> {
-        let capacity = 6 * self.tetrahedra.len() + 12 * self.octahedra.len();
+        let in_cells = 6 * self.tetrahedra.len() + 12 * self.octahedra.len();
+        let capacity = in_cells + 3 * self.sheets.len();
         let mut edges = Vec::with_capacity(capacity);
         for cell in &self.tetrahedra {
             edges.extend(TETRAHEDRON_EDGES.map(|[i, k]| edge(cell[i], cell[k])));
         }
         for cell in &self.octahedra {
             edges.extend(OCTAHEDRON_EDGES.map(|[i, k]| edge(cell[i], cell[k])));
+        }
+        for &[a, b, c] in &self.sheets {
+            edges.extend([edge(a, b), edge(b, c), edge(c, a)]);
         }
         edges.sort_unstable();
         edges.dedup();
@@ -161,13 +171,19 @@ impl Solid {
     /// # Errors
     /// The first fault found.
     pub fn check(&self) -> Result<(), SolidError> {
-        let creases = self.creases.iter().flatten();
-        for &vertex in self.cells().flatten().chain(creases).chain(&self.corners) {
+        let features = self
+            .sheets
+            .iter()
+            .flatten()
+            .chain(self.creases.iter().flatten());
+        let named = self.cells().flatten().chain(features).chain(&self.corners);
+        for &vertex in named {
             if vertex as usize >= self.vertex_count {
                 return Err(SolidError::NoSuchVertex(vertex));
             }
         }
-        for cell in self.cells() {
+        let sheets = self.sheets.iter().map(|sheet| sheet.as_slice());
+        for cell in self.cells().chain(sheets) {
             for (place, corner) in cell.iter().enumerate() {
                 if cell[..place].contains(corner) {
                     return Err(SolidError::RepeatedCorner(*corner));

@@ -1,7 +1,7 @@
 //! The linear split of section 2.1: new vertices, child cells, child creases.
 
 use super::solid::{Solid, edge};
-use super::surface::OCTAHEDRON_FACES;
+use super::surface::{OCTAHEDRON_FACES, split_triangles};
 
 /// A solid after its linear split, before any smoothing.
 #[derive(Clone, Debug)]
@@ -73,6 +73,7 @@ pub fn split(solid: &Solid) -> LinearSplit {
     for (place, cell) in solid.octahedra.iter().enumerate() {
         split_octahedron(*cell, linear.centroid(*cell, place), &linear, &mut refined);
     }
+    refined.sheets = split_triangles(&solid.sheets, |a, b| linear.midpoint(a, b));
     for &[a, b] in &solid.creases {
         let middle = linear.midpoint(a, b);
         refined.creases.extend([[a, middle], [middle, b]]);
@@ -142,7 +143,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Counts what a solid has.
+    /// Counts what a solid has; sheets must be triangles of its cells.
     pub fn of(solid: &Solid) -> Self {
         let mut faces: Vec<_> = super::surface::cell_faces(solid)
             .into_iter()

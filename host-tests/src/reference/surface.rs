@@ -76,6 +76,13 @@ pub fn split_triangles(
     children
 }
 
+/// The triangles of a solid that follow the surface rule: the boundary, found anew, and sheets.
+pub fn surface_triangles(solid: &Solid) -> Vec<[u32; 3]> {
+    let mut triangles = boundary_triangles(solid);
+    triangles.extend_from_slice(&solid.sheets);
+    triangles
+}
+
 /// Neighbourhoods on a boundary, as Loop's rules need them.
 #[derive(Clone, Debug)]
 pub struct BoundarySurface {
@@ -110,6 +117,15 @@ impl BoundarySurface {
             .iter()
             .take_while(move |side| side.0 == edge)
             .map(|side| side.1)
+    }
+
+    /// The numbers of neighbours that occur, in ascending order.
+    pub fn valences(&self) -> Vec<usize> {
+        let vertices = self.neighbours.chunk_by(|one, other| one[0] == other[0]);
+        let mut valences: Vec<_> = vertices.map(<[_]>::len).collect();
+        valences.sort_unstable();
+        valences.dedup();
+        valences
     }
 
     /// The other ends of the boundary edges at a vertex; none if it is no boundary vertex.
