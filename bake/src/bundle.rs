@@ -160,7 +160,7 @@ fn residuals(contents: &Contents<'_>) -> Result<Vec<[i64; 3]>> {
             return Ok(of_axis);
         }
         Err(Error::new(format!(
-            "model point {index} (counted from 0) lies more than half the coordinates' range from the place that the cage gives it"
+            "point {index} (counted from 0) lies more than half the coordinates' range from the place that the cage gives it"
         ))
         .advise("bake with fewer --fraction-bits, or move the point into the cage"))
     };

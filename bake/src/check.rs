@@ -3,7 +3,7 @@
 use crate::error::{Error, Result, count};
 use crate::geometry::tetrahedron_volume_6;
 use crate::locate::octahedron::Octahedron;
-use crate::mesh::{SolidMesh, Vertex};
+use crate::mesh::{Cells, Point, SolidMesh, Vertex};
 use octruss::mesh::{OCTAHEDRON_FACES, TETRAHEDRON_FACES};
 use std::collections::HashMap;
 
@@ -20,13 +20,13 @@ pub struct Volumes {
 
 impl Volumes {
     /// Looks at every cell.
-    pub fn of(mesh: &SolidMesh) -> Self {
-        let position = |vertex: Vertex| mesh.points[vertex as usize];
+    pub fn of(cells: &Cells, points: &[Point]) -> Self {
+        let position = |vertex: Vertex| points[vertex as usize];
         let mut volumes = Self::default();
-        for (cell, corners) in mesh.cells.tetrahedra.iter().enumerate() {
+        for (cell, corners) in cells.tetrahedra.iter().enumerate() {
             volumes.sort_in(cell, tetrahedron_volume_6(corners.map(position)), true);
         }
-        for (cell, corners) in (mesh.cells.tetrahedra.len()..).zip(&mesh.cells.octahedra) {
+        for (cell, corners) in (cells.tetrahedra.len()..).zip(&cells.octahedra) {
             let shape = Octahedron::new(corners.map(position));
             volumes.sort_in(cell, shape.volume_6(), shape.is_sound());
         }
@@ -49,7 +49,7 @@ impl Volumes {
 /// A cell of negative volume is never turned round silently: it may be one whose corners are listed in
 /// the other order, but as well one that the rest shape really turns inside out.
 pub fn require_positive_volumes(mesh: &SolidMesh) -> Result<()> {
-    let volumes = Volumes::of(mesh);
+    let volumes = Volumes::of(&mesh.cells, &mesh.points);
     let cells = mesh.cells.len();
     let first = |list: &[usize]| list.first().map(|cell| mesh.cells.name(*cell));
     if let Some(name) = first(&volumes.inverted) {

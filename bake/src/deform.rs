@@ -64,7 +64,7 @@ pub fn pose_bits(bundle: &Bundle<'_>, pose: &[Point]) -> Result<Vec<[i32; 3]>> {
         ))
         .advise("pose the cage that the bundle was baked from"));
     }
-    format_of(bundle).bits_of(pose, "the pose's point")
+    format_of(bundle).bits_of(pose, "point")
 }
 
 /// Error unless the mesh has the connectivity of the cage that the bundle was baked from.

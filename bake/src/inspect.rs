@@ -121,7 +121,7 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
     check::require_sound_connectivity(mesh)?;
     let level = Level::new(mesh)?;
     let counts = level.counts()?;
-    let volumes = Volumes::of(mesh);
+    let volumes = Volumes::of(&mesh.cells, &mesh.points);
     let names = |cells: &[usize]| cells.iter().map(|cell| mesh.cells.name(*cell)).collect();
     let edge_cells = edge_cells(mesh);
     let surface = SurfaceEdges::of(&level.surface);

@@ -4,7 +4,7 @@ use super::{print_figures, progress::Bars, show_notes, source};
 use octruss_bake::error::Result;
 use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::table::format::MOST_FRACTION_BITS;
-use octruss_bake::table::{Options, Outside, bake};
+use octruss_bake::table::{Input, Options, Outside, bake};
 use octruss_bake::{check, read, write};
 use std::path::PathBuf;
 
@@ -86,8 +86,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         random_poses: arguments.random_poses,
         seed: arguments.seed,
     };
-    let baked = bake(&cage, &model.points, &options, &mut Bars::default())
-        .map_err(|error| error.in_file(&arguments.cage))?;
+    let input = Input {
+        cage: &cage,
+        cage_file: &arguments.cage,
+        model: &model.points,
+        model_file: &arguments.model,
+    };
+    let baked = bake(input, &options, &mut Bars::default())?;
     if let Some(file) = &arguments.rust {
         write::atomically(file, |out| {
             source::rust(&baked.bundle, &arguments.output, out)
@@ -100,5 +105,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         out.write_all(&baked.bundle)
             .map_err(|error| octruss_bake::error::Error::new(format!("cannot be written: {error}")))
     })?;
+    if baked.report.refined_cells_without_volume > 0 {
+        eprintln!(
+            "warning: {} refined cells of the cage at rest have no positive volume: the map folds there",
+            baked.report.refined_cells_without_volume
+        );
+    }
     print_figures(&baked.report, arguments.json, || baked.report.to_string())
 }

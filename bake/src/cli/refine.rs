@@ -110,7 +110,7 @@ fn refine(mesh: SolidMesh, arguments: &Arguments) -> Result<(SolidMesh, Level, F
     };
     let is_fixed = arguments.numeric == Numeric::Fixed;
     let mut bits = if is_fixed {
-        format.bits_of(&mesh.points, "the mesh's vertex")?
+        format.bits_of(&mesh.points, "vertex")?
     } else {
         Vec::new()
     };
@@ -140,7 +140,7 @@ fn refine(mesh: SolidMesh, arguments: &Arguments) -> Result<(SolidMesh, Level, F
         },
         notes: Vec::new(),
     };
-    let volumes = Volumes::of(&refined);
+    let volumes = Volumes::of(&refined.cells, &refined.points);
     let figures = Figures {
         levels: arguments.levels,
         vertices: refined.points.len(),

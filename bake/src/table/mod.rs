@@ -14,7 +14,7 @@ mod report;
 pub use report::{LargestRow, OutsideReport, Report, TapsReport, WeightsReport};
 
 use crate::bundle::{self, Contents, LONGEST_UNIT};
-use crate::check;
+use crate::check::{self, Volumes};
 use crate::error::{Error, Result, count};
 use crate::locate::{Embedding, Locator};
 use crate::mesh::{Point, SolidMesh};
@@ -24,6 +24,7 @@ use crate::refine::{BoundaryRule, Level, Refinement, Scheme};
 use format::{Format, MOST_FRACTION_BITS};
 use precision::Table;
 use quantise::{QuantisedRow, quantise};
+use std::path::Path;
 
 /// What to do with a model point outside the refined cage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
@@ -86,29 +87,42 @@ pub struct Baked {
     pub report: Report,
 }
 
+/// What is baked, and the files it came from, which errors name.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a> {
+    /// The cage at rest.
+    pub cage: &'a SolidMesh,
+    /// Where the cage came from.
+    pub cage_file: &'a Path,
+    /// The points of the model at rest.
+    pub model: &'a [Point],
+    /// Where the model came from.
+    pub model_file: &'a Path,
+}
+
 /// Bakes the table that moves the points of a model with a cage.
 ///
 /// # Errors
 /// If the cage is no sound solid, an option is out of range, or a model point cannot be embedded.
-pub fn bake(
-    cage: &SolidMesh,
-    model: &[Point],
-    options: &Options,
-    progress: &mut dyn Progress,
-) -> Result<Baked> {
-    check::require_sound_connectivity(cage)?;
-    check::require_positive_volumes(cage)?;
+pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) -> Result<Baked> {
+    let Input { cage, model, .. } = input;
+    let of_cage = |error: Error| error.in_file(input.cage_file);
+    let of_model = |error: Error| error.in_file(input.model_file);
+    check::require_sound_connectivity(cage).map_err(of_cage)?;
+    check::require_positive_volumes(cage).map_err(of_cage)?;
+    require_sizes(input)?;
     let format = choose_format(cage, model, options)?;
-    let rest_cage = format.bits_of(&cage.points, "the cage's vertex")?;
-    let rest_model = format.bits_of(model, "the model's vertex")?;
+    let rest_cage = format.bits_of(&cage.points, "vertex").map_err(of_cage)?;
+    let rest_model = format.bits_of(model, "vertex").map_err(of_model)?;
 
-    let refined = refine(cage, options, progress)?;
-    let (embeddings, outside) = locate(&refined, model, options.outside, format, progress)?;
+    let refined = refine(cage, options, progress).map_err(of_cage)?;
+    let (embeddings, outside) =
+        locate(&refined, model, options.outside, format, progress).map_err(of_model)?;
     progress.stage("composing rows", 1);
     let rows = compose(&embeddings, &refined.matrices, refined.control_points);
     let composition = composition_error(&embeddings, &refined.matrices);
     progress.step();
-    let quantised = quantise_all(&rows, progress)?;
+    let quantised = quantise_all(&rows, progress).map_err(of_model)?;
 
     let bytes = bundle::write(&Contents {
         format,
@@ -121,7 +135,8 @@ pub fn bake(
         rows: &quantised,
         cage_checksum: bundle::cage_checksum(cage.points.len(), &cage.cells),
         model_checksum: bundle::model_checksum(model),
-    })?;
+    })
+    .map_err(of_model)?;
     progress.stage("measuring the error", 1);
     let table = Table {
         rows: &rows,
@@ -140,6 +155,7 @@ pub fn bake(
         control_points: cage.points.len(),
         cells: cage.cells.len(),
         refined_cells: refined.last.cells.len(),
+        refined_cells_without_volume: refined.cells_without_volume(),
         rows: quantised.len(),
         taps: TapsReport::of(&quantised),
         bytes: bytes.len(),
@@ -154,23 +170,29 @@ pub fn bake(
     })
 }
 
-fn choose_format(cage: &SolidMesh, model: &[Point], options: &Options) -> Result<Format> {
-    if model.is_empty() {
-        return Err(Error::new("the model has no points"));
+/// A table has at least one row, and its indices have 16 bits.
+fn require_sizes(input: Input<'_>) -> Result<()> {
+    if input.model.is_empty() {
+        return Err(Error::new("the model has no points").in_file(input.model_file));
     }
+    let control_points = input.cage.points.len();
+    if u16::try_from(control_points.saturating_sub(1)).is_ok() {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "the cage has {control_points} control points; a table has at most 65536"
+    ))
+    .advise("take a coarser cage")
+    .in_file(input.cage_file))
+}
+
+fn choose_format(cage: &SolidMesh, model: &[Point], options: &Options) -> Result<Format> {
     if options.unit.len() > LONGEST_UNIT || options.unit.contains('\0') {
         return Err(
             Error::new(format!("the unit's name \"{}\" is too long", options.unit)).advise(
                 format!("a unit has at most {LONGEST_UNIT} bytes, such as \"mm\""),
             ),
         );
-    }
-    if u16::try_from(cage.points.len().saturating_sub(1)).is_err() {
-        return Err(Error::new(format!(
-            "the cage has {} control points; a table has at most 65536",
-            cage.points.len()
-        ))
-        .advise("take a coarser cage"));
     }
     match options.fraction_bits {
         None => Ok(Format::with_headroom(cage.points.iter().chain(model))),
@@ -189,6 +211,14 @@ struct Refined {
     /// One matrix for each level, the first level first.
     matrices: Vec<Vec<Row>>,
     control_points: u32,
+}
+
+impl Refined {
+    /// Cells of the last level that do not have positive volume: the map folds there.
+    fn cells_without_volume(&self) -> usize {
+        let volumes = Volumes::of(&self.last.cells, &self.points);
+        volumes.inverted.len() + volumes.flat.len() + volumes.folded.len()
+    }
 }
 
 fn refine(cage: &SolidMesh, options: &Options, progress: &mut dyn Progress) -> Result<Refined> {
@@ -264,7 +294,7 @@ fn locate(
         return Err(Error::new(format!(
             "{} of {} outside the refined cage; the farthest, point {farthest} (counted from 0), by {}",
             report.count,
-            count(model.len(), "model point lies", "model points lie"),
+            count(model.len(), "point lies", "points lie"),
             report.farthest_distance
         ))
         .advise(
@@ -280,7 +310,7 @@ fn quantise_all(rows: &[Row], progress: &mut dyn Progress) -> Result<Vec<Quantis
         progress.step();
         quantise(row).map_err(|error| {
             let message = format!(
-                "model point {index} (counted from 0) cannot be baked: {}",
+                "point {index} (counted from 0) cannot be baked: {}",
                 error.message()
             );
             Error::new(message).advise(

@@ -25,6 +25,8 @@ pub struct Report {
     pub cells: usize,
     /// Cells of the last level.
     pub refined_cells: usize,
+    /// Cells of the last level without positive volume: the map at rest folds there.
+    pub refined_cells_without_volume: usize,
     /// Rows of the table: points of the model.
     pub rows: usize,
     /// Numbers of taps.

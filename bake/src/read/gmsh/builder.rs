@@ -118,7 +118,7 @@ impl Builder {
             .collect();
         if !ignored.is_empty() {
             self.mesh.notes.push(format!(
-                "ignored {}, which are in no physical group whose name starts with \"crease\" (curves) or \"corner\" (points)",
+                "left out: {} (in no physical group whose name starts with \"crease\" for curves or \"corner\" for points)",
                 ignored.join(", ")
             ));
         }

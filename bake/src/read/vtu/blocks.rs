@@ -162,3 +162,116 @@ impl Source for Base64<'_> {
         Ok(std::mem::replace(&mut self.ready, rest))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flate2::Compression;
+    use flate2::write::ZlibEncoder;
+    use std::io::Write;
+
+    fn header(numbers: &[usize], layout: Layout) -> Vec<u8> {
+        let bytes = |number: &usize| {
+            let wide = (*number as u64).to_le_bytes();
+            let mut bytes = wide[..if layout.wide_header { 8 } else { 4 }].to_vec();
+            if layout.big_endian {
+                bytes.reverse();
+            }
+            bytes
+        };
+        numbers.iter().flat_map(bytes).collect()
+    }
+
+    /// The array in zlib blocks of 7 bytes, header and blocks.
+    fn compressed(content: &[u8], layout: Layout) -> (Vec<u8>, Vec<u8>) {
+        let blocks: Vec<Vec<u8>> = content
+            .chunks(7)
+            .map(|block| {
+                let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+                encoder.write_all(block).unwrap();
+                encoder.finish().unwrap()
+            })
+            .collect();
+        let mut numbers = vec![blocks.len(), 7, content.len() % 7];
+        numbers.extend(blocks.iter().map(Vec::len));
+        (header(&numbers, layout), blocks.concat())
+    }
+
+    #[test]
+    fn many_blocks_with_a_full_or_a_short_last_one() {
+        for length in [0, 1, 6, 7, 8, 14, 20] {
+            let content: Vec<u8> = (0..length).collect();
+            for (big_endian, wide_header) in
+                [(false, false), (true, false), (false, true), (true, true)]
+            {
+                let layout = Layout {
+                    big_endian,
+                    wide_header,
+                    compressed: true,
+                };
+                let (header, blocks) = compressed(&content, layout);
+                let raw = [header.clone(), blocks.clone()].concat();
+                assert_eq!(layout.read(&mut Raw::new(&raw)).unwrap(), content);
+                let together = STANDARD.encode(&raw);
+                let apart = STANDARD.encode(&header) + &STANDARD.encode(&blocks);
+                for text in [together, apart] {
+                    assert_eq!(
+                        layout.read(&mut Base64::new(text.as_bytes())).unwrap(),
+                        content
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn plain_bytes_with_header_encoded_together_or_apart() {
+        let content: Vec<u8> = (0..50).collect();
+        for wide_header in [false, true] {
+            let layout = Layout {
+                wide_header,
+                ..Layout::default()
+            };
+            let header = header(&[content.len()], layout);
+            let together = STANDARD.encode([header.clone(), content.clone()].concat());
+            let apart = STANDARD.encode(&header) + &STANDARD.encode(&content);
+            for text in [together, apart] {
+                // What follows belongs to the next array.
+                let text = text + "AAAA";
+                assert_eq!(
+                    layout.read(&mut Base64::new(text.as_bytes())).unwrap(),
+                    content
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn lengths_that_lie_are_errors() {
+        let layout = Layout {
+            wide_header: true,
+            ..Layout::default()
+        };
+        for bytes in [
+            &[][..],
+            &[1, 0, 0],
+            &[255; 8],
+            &[9, 0, 0, 0, 0, 0, 0, 0, 1, 2],
+        ] {
+            assert!(layout.read(&mut Raw::new(bytes)).is_err());
+            let text = STANDARD.encode(bytes);
+            assert!(layout.read(&mut Base64::new(text.as_bytes())).is_err());
+        }
+        let layout = Layout {
+            compressed: true,
+            ..Layout::default()
+        };
+        let (header, mut blocks) = compressed(&[1, 2, 3], layout);
+        blocks[2] ^= 0xff;
+        assert!(
+            layout
+                .read(&mut Raw::new(&[header, blocks].concat()))
+                .is_err()
+        );
+    }
+}

@@ -239,7 +239,7 @@ fn note_ignored(ignored: &BTreeMap<i64, usize>, notes: &mut Vec<String>) {
         .collect();
     if !named.is_empty() {
         notes.push(format!(
-            "ignored {}, which have no volume",
+            "left out, for want of volume: {}",
             named.join(", ")
         ));
     }

@@ -22,8 +22,13 @@ use roxmltree::{Document, Node};
 pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
     let (xml, appended) = split_appended(bytes)?;
     let document = Document::parse(&xml).map_err(|error| {
+        let line = match error {
+            // The parser names the file's start; the user looks for what is missing at its end.
+            roxmltree::Error::UnclosedRootNode => xml.lines().count(),
+            _ => line_number(error.pos().row),
+        };
         Error::new(format!("the file is no valid XML: {error}"))
-            .at_line(line_number(error.pos().row))
+            .at_line(line)
             .advise("the file seems to be cut off or damaged; write it again")
     })?;
     let file = File::new(&document, appended)?;
