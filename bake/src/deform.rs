@@ -1,7 +1,7 @@
 //! Applies a bundle on the host, with the device's own code.
 
 use crate::bundle::{cage_checksum, model_checksum};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, count};
 use crate::mesh::{Point, SolidMesh};
 use crate::read::obj::Model;
 use crate::table::format::Format;
@@ -91,8 +91,8 @@ pub fn require_model(bundle: &Bundle<'_>, model: &Model) -> Result<()> {
         format!("its {rows} vertices stand elsewhere")
     } else {
         format!(
-            "it has {} vertices, the bundle has {rows} rows",
-            model.points.len()
+            "it has {}, the bundle has {rows} rows",
+            count(model.points.len(), "vertex", "vertices")
         )
     };
     Err(Error::new(format!(

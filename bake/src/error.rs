@@ -127,9 +127,8 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// "1 triangle", "2 triangles": the plural is regular for all names used here but those that
-/// say so themselves.
-pub(crate) fn count(number: usize, singular: &str, plural: &str) -> String {
+/// "1 triangle", "2 triangles".
+pub fn count(number: usize, singular: &str, plural: &str) -> String {
     format!("{number} {}", if number == 1 { singular } else { plural })
 }
 

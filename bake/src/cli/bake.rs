@@ -1,7 +1,7 @@
 //! `octruss bake`.
 
 use super::{print_figures, progress::Bars, show_notes, source};
-use octruss_bake::error::Result;
+use octruss_bake::error::{Result, count};
 use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::table::format::MOST_FRACTION_BITS;
 use octruss_bake::table::{Input, Options, Outside, bake};
@@ -71,8 +71,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let unused = check::unused_vertices(&cage);
     if let Some(first) = unused.first() {
         eprintln!(
-            "warning: {} of the cage's vertices belong to no cell and move nothing, first vertex {first}",
-            unused.len()
+            "warning: {} of the cage in no cell, which {} nothing, first vertex {first}",
+            count(unused.len(), "vertex", "vertices"),
+            if unused.len() == 1 { "moves" } else { "move" }
         );
     }
     let model = read::model(&arguments.model)?;
@@ -107,8 +108,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     })?;
     if baked.report.refined_cells_without_volume > 0 {
         eprintln!(
-            "warning: {} refined cells of the cage at rest have no positive volume: the map folds there",
-            baked.report.refined_cells_without_volume
+            "warning: {} of the cage at rest without positive volume: the map folds there",
+            count(
+                baked.report.refined_cells_without_volume,
+                "refined cell",
+                "refined cells"
+            )
         );
     }
     print_figures(&baked.report, arguments.json, || baked.report.to_string())

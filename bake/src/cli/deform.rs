@@ -4,7 +4,7 @@ use super::{print_figures, progress::Bars, show_notes};
 use octruss::bundle::Bundle;
 use octruss_bake::bundle::BundleBytes;
 use octruss_bake::deform::{Form, deform, format_of, pose_bits, require_cage, require_model};
-use octruss_bake::error::{Error, Result};
+use octruss_bake::error::{Error, Result, count};
 use octruss_bake::mesh::{Point, SolidMesh};
 use octruss_bake::picture::{self, Scene, Sheet, View, contact_sheet, edges_of};
 use octruss_bake::progress::Progress;
@@ -68,7 +68,7 @@ pub struct Arguments {
 struct Figures {
     frames: usize,
     points: usize,
-    saturated_coordinates: u64,
+    saturated_coordinates: usize,
 }
 
 /// Runs the command.
@@ -94,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
                 .map_or(located.clone(), |advice| located.advise(advice))
         })?;
         let result = deform(&bundle, &bits, arguments.form)?;
-        saturated += u64::from(result.saturated);
+        saturated += result.saturated as usize;
         let points = format_of(&bundle).points_of(&result.bits);
         if let Some(target) = targets.get(index) {
             write::atomically(target, |out| model.write_with(&points, out))?;
@@ -108,7 +108,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     }
     if saturated > 0 {
         eprintln!(
-            "warning: {saturated} coordinates did not fit their range and were clamped; bake with fewer --fraction-bits"
+            "warning: {} out of range and clamped; bake with fewer --fraction-bits",
+            count(saturated, "coordinate", "coordinates")
         );
     }
     let figures = Figures {
@@ -118,8 +119,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     };
     print_figures(&figures, arguments.json, || {
         format!(
-            "{} frames of {} points, {} coordinates saturated",
-            figures.frames, figures.points, figures.saturated_coordinates
+            "{} of {}, {} saturated",
+            count(figures.frames, "frame", "frames"),
+            count(figures.points, "point", "points"),
+            count(figures.saturated_coordinates, "coordinate", "coordinates")
         )
     })
 }

@@ -3,7 +3,7 @@
 use super::{print_figures, show_notes};
 use octruss_bake::bundle::BundleBytes;
 use octruss_bake::deform::{format_of, pose_bits, require_cage, write_poses};
-use octruss_bake::error::Result;
+use octruss_bake::error::{Result, count};
 use octruss_bake::read::motion;
 use octruss_bake::{read, write};
 use serde::Serialize;
@@ -68,8 +68,11 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     };
     print_figures(&figures, arguments.json, || {
         format!(
-            "{} frames of {} control points, {} fraction bits, {} bytes",
-            figures.frames, figures.control_points, figures.fraction_bits, figures.bytes
+            "{} of {}, {} fraction bits, {} bytes",
+            count(figures.frames, "frame", "frames"),
+            count(figures.control_points, "control point", "control points"),
+            figures.fraction_bits,
+            figures.bytes
         )
     })
 }

@@ -2,7 +2,7 @@
 
 use super::{print_figures, progress::Bars, show_notes};
 use octruss_bake::check::{self, Volumes};
-use octruss_bake::error::{Error, Result};
+use octruss_bake::error::{Error, Result, count};
 use octruss_bake::mesh::{Features, SolidMesh};
 use octruss_bake::progress::Progress;
 use octruss_bake::refine::{BoundaryRule, Level, Refinement, Scheme};
@@ -63,10 +63,10 @@ struct Figures {
     tetrahedra: usize,
     octahedra: usize,
     boundary_triangles: usize,
-    inverted_cells: usize,
+    cells_without_volume: usize,
     /// Of `--numeric fixed`.
     fraction_bits: Option<u32>,
-    saturated_coordinates: u64,
+    saturated_coordinates: usize,
 }
 
 /// Runs the command.
@@ -86,16 +86,16 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         "vtu" => write::vtu::write(&refined, out),
         _ => write::obj::write_used(&refined.points, &level.surface, out),
     })?;
-    if figures.inverted_cells > 0 {
+    if figures.cells_without_volume > 0 {
         eprintln!(
             "warning: {} refined cells have no positive volume",
-            figures.inverted_cells
+            figures.cells_without_volume
         );
     }
     if figures.saturated_coordinates > 0 {
         eprintln!(
-            "warning: {} coordinates did not fit their range and were clamped",
-            figures.saturated_coordinates
+            "warning: {} out of range and clamped",
+            count(figures.saturated_coordinates, "coordinate", "coordinates")
         );
     }
     print_figures(&figures, arguments.json, || words(&figures))
@@ -147,7 +147,7 @@ fn refine(mesh: SolidMesh, arguments: &Arguments) -> Result<(SolidMesh, Level, F
         tetrahedra: level.cells.tetrahedra.len(),
         octahedra: level.cells.octahedra.len(),
         boundary_triangles: level.surface.len(),
-        inverted_cells: volumes.inverted.len() + volumes.flat.len() + volumes.folded.len(),
+        cells_without_volume: volumes.inverted.len() + volumes.flat.len() + volumes.folded.len(),
         fraction_bits: is_fixed.then_some(format.fraction_bits),
         saturated_coordinates: saturated,
     };

@@ -174,10 +174,10 @@ impl<'a> Refinement<'a> {
     }
 
     /// Positions as the device computes them from raw bits; counts saturated coordinates.
-    pub fn bits(&mut self, bits: &[[i32; 3]], saturated: &mut u64) -> Result<Vec<[i32; 3]>> {
+    pub fn bits(&mut self, bits: &[[i32; 3]], saturated: &mut usize) -> Result<Vec<[i32; 3]>> {
         let mut blend = FixedBlend::<i32, 3>::new();
         let out = self.values(&mut blend, bits)?;
-        *saturated += u64::from(blend.saturated());
+        *saturated += blend.saturated() as usize;
         Ok(out)
     }
 }

@@ -3,6 +3,7 @@
 use super::precision::{FormPrecision, Precision};
 use super::quantise::{ONE, QuantisedRow};
 use super::{BoundaryRule, Outside, Scheme};
+use crate::error::count;
 use serde::Serialize;
 use std::fmt;
 
@@ -149,8 +150,11 @@ impl fmt::Display for Report {
         let step = 2.0_f64.powi(-(self.fraction_bits as i32));
         writeln!(
             f,
-            "cage        {} control points, {} cells; {} cells after {} level(s)",
-            self.control_points, self.cells, self.refined_cells, self.levels
+            "cage        {} control points, {} cells; {} cells after {}",
+            self.control_points,
+            self.cells,
+            self.refined_cells,
+            count(self.levels as usize, "level", "levels")
         )?;
         writeln!(
             f,
@@ -217,8 +221,9 @@ impl Report {
             None => writeln!(f, "outside     0 points")?,
             Some(farthest) => writeln!(
                 f,
-                "outside     {} points, {what}; the farthest is point {farthest}, by {}{unit}",
-                outside.count, outside.farthest_distance
+                "outside     {}, {what}; the farthest is point {farthest}, by {}{unit}",
+                count(outside.count, "point", "points"),
+                outside.farthest_distance
             )?,
         }
         if outside.on_boundary > 0 {
