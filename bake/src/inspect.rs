@@ -132,10 +132,6 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
     let (boundary_vertices, interior_vertices): (Vec<_>, Vec<_>) = vertex_cells
         .iter()
         .partition(|(vertex, _)| surface.vertices.contains(vertex));
-    let of_valence_3 = interior
-        .iter()
-        .filter(|(_, cells)| **cells == 3)
-        .map(|(edge, _)| **edge);
     Ok(Inspection {
         vertices: mesh.points.len(),
         tetrahedra: mesh.cells.tetrahedra.len(),
@@ -143,7 +139,7 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         edges: counts.edges,
         faces: counts.faces,
         bounds: bounds(&mesh.points),
-        interior_edges_of_valence_3: of_valence_3.collect(),
+        interior_edges_of_valence_3: of_three_cells(&interior),
         interior_edge_valences: count_each(interior.into_iter().map(|(_, cells)| *cells)),
         boundary_edge_valences: count_each(boundary.into_iter().map(|(_, cells)| *cells)),
         interior_vertex_valences: count_each(interior_vertices.into_iter().map(|(_, n)| *n as u32)),
@@ -162,6 +158,27 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         capacities: capacities(counts, levels),
         notes: mesh.notes.clone(),
     })
+}
+
+/// The interior edges of three cells, along which the scheme tet-oct is not smooth.
+///
+/// # Errors
+/// If the connectivity is none of a solid.
+pub fn interior_edges_of_valence_3(mesh: &SolidMesh) -> Result<Vec<[Vertex; 2]>> {
+    let surface = SurfaceEdges::of(&Level::new(mesh)?.surface);
+    let edges = edge_cells(mesh);
+    let interior = edges
+        .iter()
+        .filter(|(edge, _)| !surface.triangles.contains_key(*edge));
+    Ok(of_three_cells(&interior.collect::<Vec<_>>()))
+}
+
+fn of_three_cells(edges: &[(&[Vertex; 2], &u32)]) -> Vec<[Vertex; 2]> {
+    edges
+        .iter()
+        .filter(|(_, cells)| **cells == 3)
+        .map(|(edge, _)| **edge)
+        .collect()
 }
 
 fn capacities(mut counts: Counts, levels: u32) -> Vec<Capacities> {

@@ -312,6 +312,20 @@ fn refine_writes_the_boundary_as_obj() {
 }
 
 #[test]
+fn levels_beyond_all_memory_are_refused() {
+    for levels in ["9", "4000000000"] {
+        octruss()
+            .args(["refine", "-o", "out.vtu", "--levels", levels])
+            .arg(model("finger.msh"))
+            .assert()
+            .code(1)
+            .stderr(
+                contains("finger.msh: level 8 of").and(contains("more than 134217728 vertices")),
+            );
+    }
+}
+
+#[test]
 fn bake_reports_and_writes_sources() {
     let folder = Folder::new();
     let report = json(

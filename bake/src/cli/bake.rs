@@ -2,6 +2,7 @@
 
 use super::{print_figures, progress::Bars, show_notes, source};
 use octruss_bake::error::{Result, count};
+use octruss_bake::inspect::interior_edges_of_valence_3;
 use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::table::format::MOST_FRACTION_BITS;
 use octruss_bake::table::{Input, Options, Outside, bake};
@@ -74,6 +75,14 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             "warning: {} of the cage in no cell, which {} nothing, first vertex {first}",
             count(unused.len(), "vertex", "vertices"),
             if unused.len() == 1 { "moves" } else { "move" }
+        );
+    }
+    let edges =
+        interior_edges_of_valence_3(&cage).map_err(|error| error.in_file(&arguments.cage))?;
+    if !edges.is_empty() {
+        eprintln!(
+            "warning: {} of three cells, along which the map is not smooth; `octruss info` names them",
+            count(edges.len(), "interior edge", "interior edges")
         );
     }
     let model = read::model(&arguments.model)?;

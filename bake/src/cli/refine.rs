@@ -104,6 +104,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 fn refine(mesh: SolidMesh, arguments: &Arguments) -> Result<(SolidMesh, Level, Figures)> {
     check::require_sound_connectivity(&mesh)?;
     let mut level = Level::new(&mesh)?;
+    level.require_levels(arguments.levels)?;
     let format = match arguments.fraction_bits {
         Some(fraction_bits) => Format { fraction_bits },
         None => Format::with_headroom(&mesh.points),

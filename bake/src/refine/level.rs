@@ -63,6 +63,25 @@ impl Level {
         }
     }
 
+    /// Error if refining so many times would take more memory than is sensible.
+    pub fn require_levels(&self, levels: u32) -> Result<()> {
+        let mut counts = self.counts()?;
+        for level in 1..=levels {
+            match counts.refined() {
+                Some(refined) if refined.vertices <= MOST_VERTICES => counts = refined,
+                _ => {
+                    return Err(Error::new(format!(
+                        "level {level} of {levels} would have more than {MOST_VERTICES} vertices"
+                    ))
+                    .advise(
+                        "take fewer levels: each has about eight times the cells of the one before",
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Numbers of everything, edges and faces included.
     pub fn counts(&self) -> Result<Counts> {
         let solid = self.solid();
@@ -82,6 +101,10 @@ impl Level {
         })
     }
 }
+
+/// A refined mesh of more vertices than this is refused before memory is asked for it: that is some
+/// 600 million cells, far beyond what this is for.
+const MOST_VERTICES: usize = 1 << 27;
 
 /// Memory for the numbering of one split.
 struct EdgeMemory {

@@ -223,6 +223,7 @@ impl Refined {
 
 fn refine(cage: &SolidMesh, options: &Options, progress: &mut dyn Progress) -> Result<Refined> {
     let mut level = Level::new(cage)?;
+    level.require_levels(options.levels)?;
     let control_points = level.vertex_count;
     let (mut points, mut matrices) = (cage.points.clone(), Vec::new());
     progress.stage("refining", options.levels as usize);

@@ -170,14 +170,17 @@ impl fmt::Display for Report {
         writeln!(f, "bundle      {} bytes", self.bytes)?;
         writeln!(
             f,
-            "weights     from {} to {}",
+            "weights     from {:.3e} to {:.6}",
             self.weights.least, self.weights.greatest
         )?;
         for LargestRow { row, magnitude } in &self.weights.largest_rows {
-            writeln!(
-                f,
-                "            magnitudes of row {row} add up to {magnitude}"
-            )?;
+            // Without negative weights every sum of magnitudes is one.
+            if *magnitude > 1.0 {
+                writeln!(
+                    f,
+                    "            magnitudes of row {row} add up to {magnitude:.6}"
+                )?;
+            }
         }
         self.write_outside(f, unit)?;
         writeln!(

@@ -41,6 +41,11 @@ pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
                 .advise("a count in the section before may be wrong"));
         };
         match (section, version) {
+            ("PhysicalNames" | "Entities", _) if elements => {
+                return Err(words
+                    .error(format!("${section} comes after $Elements, which need it"))
+                    .advise("write the mesh again with Gmsh"));
+            }
             ("PhysicalNames", _) => physical_names(&mut words, &mut builder)?,
             ("Entities", Version::Four) => entities = version_4::entities(&mut words)?,
             ("PartitionedEntities", Version::Four) => {
