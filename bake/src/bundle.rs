@@ -40,8 +40,8 @@ pub struct Contents<'a> {
 }
 
 /// CRC-32 of a cage's connectivity: the numbers of vertices, tetrahedra and octahedra, then the
-/// corners of all tetrahedra, then those of all octahedra, each number as 32 bits, least significant byte
-/// first.
+/// corners of all tetrahedra, then those of all octahedra, each number as 32 bits, least
+/// significant byte first.
 pub fn cage_checksum(vertices: usize, cells: &Cells) -> u32 {
     let counts = [vertices, cells.tetrahedra.len(), cells.octahedra.len()];
     let words = counts.into_iter().map(|count| count as u32);
@@ -142,8 +142,8 @@ fn header(contents: &Contents<'_>, taps: usize, total: usize) -> Header {
     }
 }
 
-/// What the displacement form starts its sums from: the rest position less what the weights make of the
-/// rest cage, in units of 2^-30.
+/// What the displacement form starts its sums from: the rest position less what the weights make
+/// of the rest cage, in units of 2^-30.
 fn residuals(contents: &Contents<'_>) -> Result<Vec<[i64; 3]>> {
     let residual = |(index, (rest, row)): (usize, (&[i32; 3], &QuantisedRow))| {
         let of_axis: [i64; 3] = std::array::from_fn(|axis| {

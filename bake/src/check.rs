@@ -46,8 +46,8 @@ impl Volumes {
 
 /// Error unless a map can be built on this mesh at rest: every cell has positive volume.
 ///
-/// A cell of negative volume is never turned round silently: it may be one whose corners are listed in
-/// the other order, but as well one that the rest shape really turns inside out.
+/// A cell of negative volume is never turned round silently: it may be one whose corners are
+/// listed in the other order, but as well one that the rest shape really turns inside out.
 pub fn require_positive_volumes(mesh: &SolidMesh) -> Result<()> {
     let volumes = Volumes::of(&mesh.cells, &mesh.points);
     let cells = mesh.cells.len();

@@ -35,7 +35,8 @@ pub struct Inspection {
     pub interior_vertex_valences: Histogram,
     /// Boundary vertices by the number of cells at them.
     pub boundary_vertex_valences: Histogram,
-    /// Boundary vertices by the number of boundary edges at them: the valence that Loop's rule takes.
+    /// Boundary vertices by the number of boundary edges at them: the valence that Loop's rule
+    /// takes.
     pub surface_vertex_valences: Histogram,
     /// Triangles of the boundary.
     pub boundary_triangles: usize,

@@ -1,5 +1,5 @@
-//! Baking: the weights against masks worked out by hand, linear precision, the rest pose to the bit,
-//! and the proved bounds.
+//! Baking: the weights against masks worked out by hand, linear precision, the rest pose to the
+//! bit, and the proved bounds.
 
 mod common;
 
@@ -60,12 +60,13 @@ struct Masks {
 /// Worked out by hand.
 ///
 /// `interior`: one tetrahedron and its split, with the smoothing of figure 4. Corner 0 lies in one
-/// child: -1/16 v0 + 17/48 (m01 + m02 + m03) = 15/32 v0 + 17/96 (v1 + v2 + v3). The midpoint m01 lies
-/// in two tetrahedra and the octahedron: the mean of -1/16 m01 + 17/48 (v0 + m02 + m03), the same at v1,
-/// and 3/8 m01 + 7/24 m23 + 1/12 (m02 + m03 + m13 + m12), which is 11/36 (v0 + v1) + 7/36 (v2 + v3).
+/// child: -1/16 v0 + 17/48 (m01 + m02 + m03) = 15/32 v0 + 17/96 (v1 + v2 + v3). The midpoint m01
+/// lies in two tetrahedra and the octahedron: the mean of -1/16 m01 + 17/48 (v0 + m02 + m03), the
+/// same at v1, and 3/8 m01 + 7/24 m23 + 1/12 (m02 + m03 + m13 + m12), which is 11/36 (v0 + v1) +
+/// 7/36 (v2 + v3).
 ///
-/// Surface rules: every vertex has three neighbours, so beta is 3/16 (Loop and Warren) or 1/8 (3/(8n));
-/// edges 3/8 3/8 1/8 1/8.
+/// Surface rules: every vertex has three neighbours, so beta is 3/16 (Loop and Warren) or 1/8
+/// (3/(8n)); edges 3/8 3/8 1/8 1/8.
 const ONE_LEVEL: [Masks; 5] = [
     Masks {
         boundary: BoundaryRule::Interior,
@@ -209,6 +210,59 @@ fn without_levels_the_weights_are_affine_coordinates() {
     );
 }
 
+/// A crease along the edges 0-1-2 and a corner at 3, against the rules that docs/readings.md gives:
+/// 1/8 6/8 1/8 where two crease edges meet, 1/2 1/2 on a crease,
+/// Loop's rule at a crease's ends and everywhere else.
+#[test]
+fn creases_and_corners_reach_the_rows() {
+    let mut cage = tetrahedron();
+    cage.features.creases = vec![[0, 1], [1, 2]];
+    cage.features.corners = vec![3];
+    // Over 16.
+    let expected = [
+        [7, 3, 3, 3],
+        [2, 12, 2, 0],
+        [3, 3, 7, 3],
+        [0, 0, 0, 16],
+        [8, 8, 0, 0],
+        [6, 2, 6, 2],
+        [6, 2, 2, 6],
+        [0, 8, 8, 0],
+        [2, 6, 2, 6],
+        [2, 2, 6, 6],
+    ];
+    let point = |weights: &[i32; 4]| -> Point {
+        std::array::from_fn(|axis| {
+            (0..4)
+                .map(|c| f64::from(weights[c]) * CORNERS[c][axis])
+                .sum::<f64>()
+                / 16.0
+        })
+    };
+    let points: Vec<Point> = expected.iter().map(point).collect();
+    let baked = bake_points(
+        &cage,
+        &points,
+        &Options {
+            levels: 1,
+            ..Options::default()
+        },
+    )
+    .unwrap();
+    for (row, expected) in baked.rows.iter().zip(expected) {
+        let mut weights = [0.0; 4];
+        for (control, weight) in row {
+            weights[*control as usize] = *weight;
+        }
+        for (weight, expected) in weights.into_iter().zip(expected) {
+            assert!(
+                (weight - f64::from(expected) / 16.0).abs() <= 1e-15,
+                "{weights:?}"
+            );
+        }
+    }
+}
+
 /// An affinely moved cage moves the model affinely: exactly for the real weights, within the proved
 /// bound for the table.
 #[test]
@@ -226,7 +280,8 @@ fn affine_maps_are_reproduced() {
             ..Options::default()
         };
         let baked = bake_points(&cage, &points, &options).unwrap();
-        // Integer entries keep the pose's bits exact: the cage's coordinates have two binary places.
+        // Integer entries keep the pose's bits exact: the cage's coordinates have two binary
+        // places.
         let affine = |[x, y, z]: Point| [x + 2.0 * y - 3.0, y - z + 0.25, z - x];
         let pose: Vec<Point> = cage.points.iter().map(|point| affine(*point)).collect();
 

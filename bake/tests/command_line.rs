@@ -144,7 +144,8 @@ fn info_predicts_what_refinement_needs() {
     }
 }
 
-/// An edge with three tetrahedra round it, a vertex of no cell and a cell listed in the other order.
+/// An edge with three tetrahedra round it, a vertex of no cell and a cell listed in the other
+/// order.
 #[test]
 fn info_warns() {
     let folder = Folder::new();

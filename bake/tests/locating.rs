@@ -1,5 +1,5 @@
-//! Locating: points on faces, edges and vertices between cells are found, in the lowest cell, and what
-//! the cell gives leads back to them.
+//! Locating: points on faces, edges and vertices between cells are found, in the lowest cell, and
+//! what the cell gives leads back to them.
 
 mod common;
 
@@ -64,8 +64,8 @@ fn every_vertex_is_found_as_itself() {
     }
 }
 
-/// Midpoints of edges and centroids of faces, as doubles round them, lie on one side or the other, or
-/// in between: some cell has each, unless it is on the boundary and was rounded outward.
+/// Midpoints of edges and centroids of faces, as doubles round them, lie on one side or the other,
+/// or in between: some cell has each, unless it is on the boundary and was rounded outward.
 #[test]
 fn points_between_cells_are_never_lost() {
     let (level, points) = refined();

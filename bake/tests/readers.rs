@@ -350,7 +350,7 @@ fn vtu_errors_name_the_line_and_what_to_do() {
         (
             "8 3 4 6 5",
             "9 3 4 6 5",
-            "the faces of cell 4 (counted from 0) are incomplete",
+            "cell 4 (counted from 0) has an incomplete list of faces",
         ),
         (
             "8 3 4 6 5",

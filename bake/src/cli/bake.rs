@@ -11,10 +11,10 @@ use std::path::PathBuf;
 
 /// Bakes a deformation table and writes it as a bundle
 ///
-/// The cage at rest is refined, every point of the model is located in a refined cell, and its weights
-/// there are carried back to the cage's vertices. The bundle holds the weights as integers that sum to
-/// one, the cage and the model at rest, and what is needed to know that it fits. The report says how
-/// large it is and how far its results can be from the smooth map.
+/// The cage at rest is refined, every point of the model is located in a refined cell, and its
+/// weights there are carried back to the cage's vertices. The bundle holds the weights as integers
+/// that sum to one, the cage and the model at rest, and what is needed to know that it fits. The
+/// report says how large it is and how far its results can be from the smooth map.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The cage at rest: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
@@ -31,12 +31,12 @@ pub struct Arguments {
     /// What the boundary follows
     #[arg(long, value_enum, default_value_t)]
     boundary: BoundaryRule,
-    /// Bits after the point of the 32-bit coordinates, 0 to 32; by default as many as leave two bits of
-    /// headroom over the largest coordinate of cage and model
+    /// Bits after the point of the 32-bit coordinates, 0 to 32; by default as many as leave two
+    /// bits of headroom over the largest coordinate of cage and model
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_FRACTION_BITS)))]
     fraction_bits: Option<u32>,
-    /// Name of the unit of all coordinates, such as mm; at most 16 bytes; it is recorded, nothing is
-    /// converted
+    /// Name of the unit of all coordinates, such as mm; at most 16 bytes; it is recorded, nothing
+    /// is converted
     #[arg(long, value_name = "UNIT", default_value = "")]
     unit: String,
     /// File with creases and corners of the cage: a line each, `crease A B` or `corner A`

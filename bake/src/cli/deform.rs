@@ -18,10 +18,10 @@ use std::path::{Path, PathBuf};
 /// Deforms a model with a bundle, with the device's own code
 ///
 /// The result has the device's bits, written with all digits. It is the model's file with only the
-/// vertices' coordinates replaced (normals stay those of the rest shape). A pose is a mesh with the
-/// cage's connectivity; a motion is a directory of such meshes, numbered at the end of their names, or a
-/// .csv with the columns frame, point, x, y, z. For a motion, OUT is a directory (files are named
-/// after the model and the frame) or a pattern such as out/frame-%04d.obj.
+/// vertices' coordinates replaced (normals stay those of the rest shape). A pose is a mesh with
+/// the cage's connectivity; a motion is a directory of such meshes, numbered at the end of their
+/// names, or a .csv with the columns frame, point, x, y, z. For a motion, OUT is a directory
+/// (files are named after the model and the frame) or a pattern such as out/frame-%04d.obj.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The bundle, as `octruss bake` wrote it
@@ -232,6 +232,7 @@ fn draw(
     deformed: Vec<Vec<Point>>,
     mesh: Option<SolidMesh>,
 ) -> Result<()> {
+    let is_single = mesh.is_some();
     let cage = match (&arguments.cage, mesh) {
         (Some(cage), _) => {
             let mesh = read::solid(cage)?;
@@ -259,7 +260,10 @@ fn draw(
         }
     };
     let tile = |index: usize| picture::Frame {
-        caption: format!("frame {}", frames[index].number),
+        caption: match arguments.pose.file_stem() {
+            Some(stem) if is_single => stem.to_string_lossy().into_owned(),
+            _ => format!("frame {}", frames[index].number),
+        },
         model: deformed[index].clone(),
         cage: frames[index].points.clone(),
     };

@@ -9,9 +9,9 @@ use std::path::PathBuf;
 
 /// Prints what there is to know about a mesh
 ///
-/// Cells by shape; valences of edges and vertices; creases and corners found; the boundary; cells that
-/// are inverted (negative volume), flat or folded; and the arena capacities that refining the mesh on a
-/// device needs, level by level.
+/// Cells by shape; valences of edges and vertices; creases and corners found; the boundary; cells
+/// that are inverted (negative volume), flat or folded; and the arena capacities that refining the
+/// mesh on a device needs, level by level.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
@@ -83,6 +83,22 @@ fn words(inspection: &Inspection) -> String {
             inspection.boundary_triangles, inspection.boundary_edges
         ),
     );
+    features_and_volumes(&mut text, inspection);
+    capacities(&mut text, inspection);
+    for note in &inspection.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    for warning in warnings(inspection) {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    text.truncate(text.trim_end().len());
+    text
+}
+
+fn features_and_volumes(text: &mut String, inspection: &Inspection) {
+    let mut line = |name: &str, content: String| {
+        let _ = writeln!(text, "{name:<28}{content}");
+    };
     line("creases", format!("{} edges", inspection.creases));
     if inspection.creases > 0 {
         line(
@@ -98,15 +114,6 @@ fn words(inspection: &Inspection) -> String {
     ] {
         line(name, some(cells));
     }
-    capacities(&mut text, inspection);
-    for note in &inspection.notes {
-        let _ = writeln!(text, "note: {note}");
-    }
-    for warning in warnings(inspection) {
-        let _ = writeln!(text, "warning: {warning}");
-    }
-    text.truncate(text.trim_end().len());
-    text
 }
 
 /// "12 with 4 cells, 3 with 6".

@@ -15,11 +15,12 @@ use std::process::ExitCode;
 
 /// Bakes smooth volumetric deformations for microcontrollers.
 ///
-/// A cage (a coarse mesh of tetrahedra and octahedra) and a model go in; a table of integer weights
-/// comes out, which a device applies to the positions of the cage's vertices, the control points, to move
-/// the model. All coordinates are in the unit of the files, whatever that is; nothing is converted.
-/// Vertices, cells, points and frames are counted from 0. Results go to standard output or the file
-/// named with -o; notes, warnings and errors go to standard error. The exit status is 0 only on success.
+/// A cage (a coarse mesh of tetrahedra and octahedra) and a model go in; a table of integer
+/// weights comes out, which a device applies to the positions of the cage's vertices, the control
+/// points, to move the model. All coordinates are in the unit of the files, whatever that is;
+/// nothing is converted. Vertices, cells, points and frames are counted from 0. Results go to
+/// standard output or the file named with -o; notes, warnings and errors go to standard error. The
+/// exit status is 0 only on success.
 #[derive(Parser)]
 #[command(name = "octruss", version, max_term_width = 100)]
 struct Arguments {

@@ -2,8 +2,8 @@
 //!
 //! Whether a cell contains a point is decided exactly, so that a point on a face, an edge or a
 //! vertex is never lost between cells. Of several cells the lowest wins: tetrahedra before
-//! octahedra, each in their order. A point that no cell contains has a nearest point on the boundary; who asks
-//! decides what becomes of it ([`Nearest`]).
+//! octahedra, each in their order. A point that no cell contains has a nearest point on the
+//! boundary; who asks decides what becomes of it ([`Nearest`]).
 
 mod nearest;
 pub mod octahedron;

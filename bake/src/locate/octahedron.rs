@@ -271,9 +271,9 @@ mod tests {
         }
     }
 
-    /// On the axis to corner 0 of a regular octahedron the eight distances are (1 - t) four times and
-    /// (1 + t) four times, so with a = 1 - t, b = 1 + t the weights are proportional to
-    /// 2 a b^4 (corner 0), 2 a^4 b (corner 3) and a^2 b^2 (a + b) for the others: with t = 1/2, 81, 3
+    /// On the axis to corner 0 of a regular octahedron the eight distances are (1 - t) four times
+    /// and (1 + t) four times, so with a = 1 - t, b = 1 + t the weights are proportional to 2 a
+    /// b^4 (corner 0), 2 a^4 b (corner 3) and a^2 b^2 (a + b) for the others: with t = 1/2, 81, 3
     /// and 18 of 156.
     #[test]
     fn weights_on_an_axis_are_those_worked_out_by_hand() {

@@ -1,10 +1,10 @@
 //! Pictures: a contact sheet of a model in motion, shaded, with its cage drawn over it.
 //!
-//! A [`Scene`] says what is connected, a [`Frame`] where everything is; [`contact_sheet`] draws one
-//! tile for each frame, all from the same side and at the same scale, and gives the bytes of a PNG
-//! file. The projection is parallel. Triangles and pieces of cage edges are painted from far to
-//! near, then all cage edges once more in a faint colour, so that the hidden parts show through. The tiles are
-//! painted three times as large and averaged down.
+//! A [`Scene`] says what is connected, a [`Frame`] where everything is; [`contact_sheet`] draws
+//! one tile for each frame, all from the same side and at the same scale, and gives the bytes of a
+//! PNG file. The projection is parallel. Triangles and pieces of cage edges are painted from far
+//! to near, then all cage edges once more in a faint colour, so that the hidden parts show
+//! through. The tiles are painted three times as large and averaged down.
 
 mod paint;
 mod text;
@@ -150,8 +150,8 @@ fn check(scene: &Scene<'_>, frames: &[Frame]) -> Result<()> {
     Ok(())
 }
 
-/// About [`ASPECT`] times as wide as high; of three numbers near that, the one that leaves the fewest
-/// places empty.
+/// About [`ASPECT`] times as wide as high; of three numbers near that, the one that leaves the
+/// fewest places empty.
 fn columns(sheet: &Sheet, frames: usize) -> u32 {
     const ASPECT: f64 = 1.5;
     let most = u32::try_from(frames).unwrap_or(u32::MAX).max(1);

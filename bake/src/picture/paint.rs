@@ -169,8 +169,8 @@ fn vertex_normals(triangles: &[[u32; 3]], points: &[Point]) -> Vec<Point> {
     normals.into_iter().map(normalised).collect()
 }
 
-/// A strong light from the upper left, a weak one from the right, and a brightness all round that is
-/// greater from above.
+/// A strong light from the upper left, a weak one from the right, and a brightness all round that
+/// is greater from above.
 struct Lights {
     key: Point,
     fill: Point,

@@ -1,11 +1,11 @@
 //! Motions: positions of all control points, frame by frame.
 //!
-//! A `.csv` file has the columns `frame`, `point`, `x`, `y`, `z`: numbers of frame and point counted
-//! from 0, and the point's position in the cage's units. A first line with these names is optional;
-//! with it, the columns may stand in any order and others may stand between them. Rows come in any order,
-//! frames need not be numbered without gaps, and every frame lists every point exactly once. A
-//! directory holds one mesh a frame, with the cage's connectivity; the number at the end of each
-//! file's stem gives the order.
+//! A `.csv` file has the columns `frame`, `point`, `x`, `y`, `z`: numbers of frame and point
+//! counted from 0, and the point's position in the cage's units. A first line with these names is
+//! optional; with it, the columns may stand in any order and others may stand between them. Rows
+//! come in any order, frames need not be numbered without gaps, and every frame lists every point
+//! exactly once. A directory holds one mesh a frame, with the cage's connectivity; the number at
+//! the end of each file's stem gives the order.
 
 use super::words::shown;
 use crate::error::{Error, Result};
@@ -199,8 +199,8 @@ pub fn trailing_number(path: &Path) -> Option<u64> {
     stem[start..].parse().ok()
 }
 
-/// Reads a motion of `points` control points: a `.csv` file, or a directory of numbered meshes, each
-/// of which `check` accepts as a pose of the cage.
+/// Reads a motion of `points` control points: a `.csv` file, or a directory of numbered meshes,
+/// each of which `check` accepts as a pose of the cage.
 pub fn read(
     path: &Path,
     points: usize,

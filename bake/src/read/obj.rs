@@ -1,9 +1,9 @@
 //! Wavefront models (`.obj`): positions in double precision, everything else verbatim.
 //!
-//! A model is read to have its vertices moved: [`Model::write_with`] gives the same file back, byte
-//! for byte, with only the coordinates on the `v` lines replaced. Comments, groups, texture
-//! coordinates, normals, vertex colours, line ends and the order of all lines stay. (Normals on `vn`
-//! lines stay as well and describe the rest shape.) Faces are read for pictures.
+//! A model is read to have its vertices moved: [`Model::write_with`] gives the same file back,
+//! byte for byte, with only the coordinates on the `v` lines replaced. Comments, groups, texture
+//! coordinates, normals, vertex colours, line ends and the order of all lines stay. (Normals on
+//! `vn` lines stay as well and describe the rest shape.) Faces are read for pictures.
 
 use super::words::shown;
 use crate::error::{Error, Result};

@@ -1,10 +1,10 @@
 //! Baking: from a cage and a model to a table of integer weights.
 //!
-//! The cage at rest is refined in double precision ([`crate::refine`]), every model point is located
-//! in a cell of the last level ([`crate::locate`]), and its weights there are carried back to the control
-//! points: `D = B * S_K * ... * S_1`, equation (1) of "Smooth Subdivision of Tetrahedral Meshes". The
-//! real weights become integers that sum to one ([`quantise`]); [`precision`] says what that costs;
-//! [`crate::bundle`] writes the bytes.
+//! The cage at rest is refined in double precision ([`crate::refine`]), every model point is
+//! located in a cell of the last level ([`crate::locate`]), and its weights there are carried back
+//! to the control points: `D = B * S_K * ... * S_1`, equation (1) of "Smooth Subdivision of
+//! Tetrahedral Meshes". The real weights become integers that sum to one ([`quantise`]);
+//! [`precision`] says what that costs; [`crate::bundle`] writes the bytes.
 
 pub mod format;
 pub mod precision;

@@ -1,7 +1,7 @@
 //! How far the quantised table can be from the map it stands for, proved and measured.
 //!
-//! The unquantised map is `f(p) = sum of d_i p_i` with the real weights `d_i`, in double precision; the
-//! table has `q_i = d_i + e_i`, rounded weights with the same sum. So for any `c`
+//! The unquantised map is `f(p) = sum of d_i p_i` with the real weights `d_i`, in double
+//! precision; the table has `q_i = d_i + e_i`, rounded weights with the same sum. So for any `c`
 //!
 //! `sum of q_i p_i - f(p) = sum of e_i (p_i - c)`,
 //!
@@ -43,8 +43,8 @@ pub struct Precision {
     pub absolute: FormPrecision,
     /// The displacement form.
     pub displacement: FormPrecision,
-    /// Bound of what composing the rows in double precision may have added to a row, as the sum of the
-    /// magnitudes of its weights' errors; it is part of the bounds above.
+    /// Bound of what composing the rows in double precision may have added to a row, as the sum of
+    /// the magnitudes of its weights' errors; it is part of the bounds above.
     pub composition: f64,
     /// Random poses that were measured.
     pub random_poses: u32,

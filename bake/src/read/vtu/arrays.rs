@@ -78,11 +78,18 @@ impl<'a, 'input> File<'a, 'input> {
                     .advise("save the mesh as an unstructured grid (.vtu)"));
             }
         }
-        file.layout.big_endian = match root.attribute("byte_order") {
+        file.layout = file.read_layout()?;
+        Ok(file)
+    }
+
+    /// How binary arrays are laid out, as the root element says.
+    fn read_layout(&self) -> Result<Layout> {
+        let root = self.root();
+        let big_endian = match root.attribute("byte_order") {
             Some("BigEndian") => true,
             Some("LittleEndian") | None => false,
             Some(other) => {
-                return Err(file.error(
+                return Err(self.error(
                     root,
                     format!(
                         "expected byte_order LittleEndian or BigEndian, found \"{}\"",
@@ -91,11 +98,11 @@ impl<'a, 'input> File<'a, 'input> {
                 ));
             }
         };
-        file.layout.wide_header = match root.attribute("header_type") {
+        let wide_header = match root.attribute("header_type") {
             Some("UInt64") => true,
             Some("UInt32") | None => false,
             Some(other) => {
-                return Err(file.error(
+                return Err(self.error(
                     root,
                     format!(
                         "expected header_type UInt32 or UInt64, found \"{}\"",
@@ -104,11 +111,11 @@ impl<'a, 'input> File<'a, 'input> {
                 ));
             }
         };
-        file.layout.compressed = match root.attribute("compressor") {
+        let compressed = match root.attribute("compressor") {
             Some("vtkZLibDataCompressor") => true,
             Some("") | None => false,
             Some(other) => {
-                return Err(file
+                return Err(self
                     .error(
                         root,
                         format!("the compressor \"{}\" is not read", shown(other)),
@@ -116,7 +123,11 @@ impl<'a, 'input> File<'a, 'input> {
                     .advise("save the file with zlib compression or with none"));
             }
         };
-        Ok(file)
+        Ok(Layout {
+            big_endian,
+            wide_header,
+            compressed,
+        })
     }
 
     /// The element VTKFile.

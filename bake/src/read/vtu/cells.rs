@@ -53,12 +53,7 @@ fn refusal(kind: i64) -> (String, &'static str) {
 }
 
 /// Where the faces of polyhedra are found, in either layout, as a list of vertex lists.
-struct Polyhedra<'a, 'input> {
-    node: Node<'a, 'input>,
-    layout: FaceLayout,
-}
-
-enum FaceLayout {
+enum Polyhedra {
     /// One stream for each cell: number of faces, then for each face its size and vertices; and
     /// the end of each cell's stream, -1 for cells that are no polyhedra.
     Stream { faces: Vec<i64>, ends: Vec<i64> },
@@ -71,8 +66,8 @@ enum FaceLayout {
     },
 }
 
-impl<'a, 'input> Polyhedra<'a, 'input> {
-    fn read(file: &File<'a, 'input>, cells: Node<'a, 'input>) -> Result<Self> {
+impl Polyhedra {
+    fn read<'a, 'input>(file: &File<'a, 'input>, cells: Node<'a, 'input>) -> Result<Self> {
         let required = |name: &str| {
             file.array(cells, name).ok_or_else(|| {
                 file.error(
@@ -82,26 +77,23 @@ impl<'a, 'input> Polyhedra<'a, 'input> {
             })
         };
         if let Some(node) = file.array(cells, "face_connectivity") {
-            let layout = FaceLayout::Shared {
+            return Ok(Self::Shared {
                 vertices: file.integers(node)?,
                 face_ends: file.integers(required("face_offsets")?)?,
                 faces: file.integers(required("polyhedron_to_faces")?)?,
                 cell_ends: file.integers(required("polyhedron_offsets")?)?,
-            };
-            return Ok(Self { node, layout });
+            });
         }
-        let node = required("faces")?;
-        let layout = FaceLayout::Stream {
-            faces: file.integers(node)?,
+        Ok(Self::Stream {
+            faces: file.integers(required("faces")?)?,
             ends: file.integers(required("faceoffsets")?)?,
-        };
-        Ok(Self { node, layout })
+        })
     }
 
     /// The faces of the cell, or `None` if the arrays do not hold them.
     fn faces_of(&self, cell: usize) -> Option<Vec<Vec<i64>>> {
-        match &self.layout {
-            FaceLayout::Stream { faces, ends } => {
+        match self {
+            Self::Stream { faces, ends } => {
                 let end = usize::try_from(*ends.get(cell)?).ok()?;
                 // Cells that are no polyhedra have -1 and take no room.
                 let earlier = ends[..cell].iter().rev().find(|end| **end >= 0);
@@ -119,7 +111,7 @@ impl<'a, 'input> Polyhedra<'a, 'input> {
                 }
                 Some(cell_faces)
             }
-            FaceLayout::Shared {
+            Self::Shared {
                 vertices,
                 face_ends,
                 faces,
@@ -149,82 +141,110 @@ fn range(ends: &[i64], index: usize) -> Option<std::ops::Range<usize>> {
     Some(start..end)
 }
 
+/// The arrays that say which points make each cell.
+struct Lists<'a, 'input> {
+    node: Node<'a, 'input>,
+    connectivity: Vec<i64>,
+    offsets: Vec<i64>,
+    types: Vec<i64>,
+    /// Of grids with polyhedra.
+    polyhedra: Option<Polyhedra>,
+}
+
+impl<'a, 'input> Lists<'a, 'input> {
+    fn read(file: &File<'a, 'input>, piece: Node<'a, 'input>) -> Result<Self> {
+        let number = file.count(piece, "NumberOfCells")?;
+        let node = file.child(piece, "Cells")?;
+        let array = |name: &str| match file.array(node, name) {
+            Some(array) => file.integers(array),
+            None => Err(file.error(node, format!("expected an array named {name}, found none"))),
+        };
+        let (connectivity, offsets, types) =
+            (array("connectivity")?, array("offsets")?, array("types")?);
+        if offsets.len() != number || types.len() != number {
+            return Err(file.error(
+                node,
+                format!(
+                    "expected {number} offsets and {number} types, found {} and {}",
+                    offsets.len(),
+                    types.len()
+                ),
+            ));
+        }
+        let polyhedra = match types.contains(&POLYHEDRON) {
+            true => Some(Polyhedra::read(file, node)?),
+            false => None,
+        };
+        Ok(Self {
+            node,
+            connectivity,
+            offsets,
+            types,
+            polyhedra,
+        })
+    }
+
+    /// The corners as the cell lists them.
+    fn corners(&self, cell: usize, vertices: usize) -> Result<Vec<Vertex>> {
+        let listed = range(&self.offsets, cell).and_then(|range| self.connectivity.get(range));
+        let listed = listed.ok_or_else(|| Error::new("has offsets beyond the connectivity"))?;
+        listed
+            .iter()
+            .map(|vertex| vertex_index(*vertex, vertices))
+            .collect()
+    }
+
+    /// Reads one cell into `mesh`; false if it is of a type without volume.
+    fn read_cell(&self, cell: usize, mesh: &mut SolidMesh) -> Result<bool> {
+        let vertices = mesh.points.len();
+        match (self.types[cell], &self.polyhedra) {
+            (TETRAHEDRON, _) => {
+                let corners = self.corners(cell, vertices)?;
+                let corners = <[Vertex; 4]>::try_from(corners.as_slice()).map_err(|_| {
+                    Error::new(format!("is a tetrahedron with {} corners", corners.len()))
+                })?;
+                mesh.cells.tetrahedra.push(corners);
+            }
+            (POLYHEDRON, Some(polyhedra)) => {
+                let faces = polyhedra
+                    .faces_of(cell)
+                    .ok_or_else(|| Error::new("has an incomplete list of faces"))?;
+                let corners = octahedron::recognise(&self.corners(cell, vertices)?, &faces)?;
+                mesh.cells.octahedra.push(corners);
+            }
+            (kind, _) if ignored_name(kind).is_some() => return Ok(false),
+            (kind, _) => {
+                let (message, advice) = refusal(kind);
+                return Err(Error::new(message).advise(advice));
+            }
+        }
+        Ok(true)
+    }
+}
+
 /// Reads the cells of `piece` into `mesh`, whose points are there already.
 pub fn read<'a, 'input>(
     file: &File<'a, 'input>,
     piece: Node<'a, 'input>,
     mesh: &mut SolidMesh,
 ) -> Result<()> {
-    let number = file.count(piece, "NumberOfCells")?;
-    let cells = file.child(piece, "Cells")?;
-    let required = |name: &str| {
-        file.array(cells, name)
-            .ok_or_else(|| file.error(cells, format!("expected an array named {name}, found none")))
-    };
-    let connectivity = file.integers(required("connectivity")?)?;
-    let offsets = file.integers(required("offsets")?)?;
-    let types = file.integers(required("types")?)?;
-    if offsets.len() != number || types.len() != number {
-        return Err(file.error(
-            cells,
-            format!(
-                "expected {number} offsets and {number} types, found {} and {}",
-                offsets.len(),
-                types.len()
-            ),
-        ));
-    }
-    let polyhedra = match types.contains(&POLYHEDRON) {
-        true => Some(Polyhedra::read(file, cells)?),
-        false => None,
-    };
+    let lists = Lists::read(file, piece)?;
     let mut ignored: BTreeMap<i64, usize> = BTreeMap::new();
-    for (cell, kind) in types.iter().enumerate() {
-        let in_cell = |error: Error| {
+    for (cell, kind) in lists.types.iter().enumerate() {
+        let is_kept = lists.read_cell(cell, mesh).map_err(|error| {
             let message = format!("cell {cell} (counted from 0) {}", error.message());
-            let located = file.error(cells, message);
+            let located = file.error(lists.node, message);
             match error.advice() {
                 Some(advice) => located.advise(advice),
                 None => located,
             }
-        };
-        let corners = || -> Result<Vec<Vertex>> {
-            let listed = range(&offsets, cell).and_then(|range| connectivity.get(range));
-            let listed = listed.ok_or_else(|| Error::new("has offsets beyond the connectivity"))?;
-            listed
-                .iter()
-                .map(|vertex| vertex_index(*vertex, mesh.points.len()))
-                .collect()
-        };
-        match (*kind, &polyhedra) {
-            (TETRAHEDRON, _) => {
-                let corners = corners().map_err(in_cell)?;
-                let corners = <[Vertex; 4]>::try_from(corners.as_slice()).map_err(|_| {
-                    in_cell(Error::new(format!(
-                        "is a tetrahedron with {} corners",
-                        corners.len()
-                    )))
-                })?;
-                mesh.cells.tetrahedra.push(corners);
-            }
-            (POLYHEDRON, Some(polyhedra)) => {
-                let faces = polyhedra.faces_of(cell).ok_or_else(|| {
-                    let message =
-                        format!("the faces of cell {cell} (counted from 0) are incomplete");
-                    file.error(polyhedra.node, message)
-                })?;
-                let octahedron = octahedron::recognise(&corners().map_err(in_cell)?, &faces);
-                mesh.cells.octahedra.push(octahedron.map_err(in_cell)?);
-            }
-            (kind, _) if ignored_name(kind).is_some() => *ignored.entry(kind).or_default() += 1,
-            (kind, _) => {
-                let (message, advice) = refusal(kind);
-                return Err(in_cell(Error::new(message).advise(advice)));
-            }
+        })?;
+        if !is_kept {
+            *ignored.entry(*kind).or_default() += 1;
         }
     }
     if mesh.cells.is_empty() {
-        return Err(file.error(cells, "the grid has no tetrahedra and no octahedra"));
+        return Err(file.error(lists.node, "the grid has no tetrahedra and no octahedra"));
     }
     note_ignored(&ignored, &mut mesh.notes);
     Ok(())
