@@ -74,6 +74,12 @@ pub enum Arena {
     AdaptiveRings,
     /// Levels of an adaptive mesh.
     AdaptiveLevels,
+    /// Major diagonals.
+    Diagonals,
+    /// Cells that wait for a major diagonal.
+    CellQueue,
+    /// Triples that say who is whose neighbour.
+    Neighbours,
 }
 
 /// Why a mesh cannot be refined as it is, or where it is to go.
@@ -123,6 +129,24 @@ pub enum MeshError {
     UnsupportedPart {
         /// The list that is not empty.
         part: Part,
+    },
+    /// There is not one major diagonal for each cell.
+    DiagonalCount {
+        /// The kind of cell.
+        part: Part,
+        /// Cells of that kind.
+        needed: usize,
+        /// Major diagonals given.
+        given: usize,
+    },
+    /// A major diagonal is none of 0, 1 and 2.
+    DiagonalOutOfRange {
+        /// The kind of cell.
+        part: Part,
+        /// The cell in its list.
+        index: usize,
+        /// The number given.
+        value: u8,
     },
     /// The numbering was made for another mesh.
     OtherNumbering,
@@ -234,6 +258,9 @@ impl fmt::Display for Arena {
             Self::AdaptiveVertices => "adaptive vertices",
             Self::AdaptiveRings => "rings of adaptive vertices",
             Self::AdaptiveLevels => "adaptive levels",
+            Self::Diagonals => "major diagonals",
+            Self::CellQueue => "cells in the queue",
+            Self::Neighbours => "neighbours",
         })
     }
 }
@@ -337,6 +364,24 @@ impl fmt::Display for MeshError {
                 "the exact mask at vertex {vertex} has a denominator above 2^30: too many faces, or \
                  faces with too many different numbers of corners, meet there"
             ),
+            Self::DiagonalCount {
+                part,
+                needed,
+                given,
+            } => {
+                write!(
+                    f,
+                    "{given} major diagonals are given for cells of the kind {part}, of which \
+                     there are {needed}"
+                )
+            }
+            Self::DiagonalOutOfRange { part, index, value } => {
+                write!(
+                    f,
+                    "the major diagonal of {part} {index} is {value}; it must be 0, 1 or 2"
+                )
+            }
+            Self::OtherNumbering => f.write_str("the numbering belongs to another solid"),
             Self::TooLarge => f.write_str("the refined mesh needs more than 2^32 - 1 vertices"),
         }
     }

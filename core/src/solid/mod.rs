@@ -5,6 +5,7 @@
 //! that any number of values (coordinates, material channels, sparse rows) can be refined over
 //! one numbering, and so that the last level can do without its cells.
 
+pub mod box_spline;
 pub mod tet_oct;
 
 mod boundary;

@@ -37,6 +37,8 @@ pub struct VertexState {
     creases: u8,
     /// Lies on a surface triangle.
     on_surface: bool,
+    /// The midpoint of an edge of a cell, where the scheme asks for it.
+    in_cell: bool,
 }
 
 /// Where refined values and the scratch to compute them are written.
@@ -218,6 +220,17 @@ impl<B: Blend> Gather<'_, B> {
             }
         }
         Some(())
+    }
+
+    /// Remembers that an edge, named by its midpoint, is one of a cell.
+    pub(super) fn mark_cell_edge(&mut self, midpoint: u32) -> Option<()> {
+        self.states.get_mut(index(midpoint))?.in_cell = true;
+        Some(())
+    }
+
+    /// Whether [`Gather::mark_cell_edge`] was told of this edge.
+    pub(super) fn is_cell_edge(&self, midpoint: u32) -> Option<bool> {
+        Some(self.states.get(index(midpoint))?.in_cell)
     }
 
     /// Opposite vertices for surface edges, neighbours for surface vertices.

@@ -34,4 +34,5 @@ mod split;
 pub use super::{Boundary, PointBuffers, VertexState};
 pub use points::refine_points;
 pub use scratch::Scratch;
+pub(crate) use scratch::resize;
 pub use split::{split, split_counts};

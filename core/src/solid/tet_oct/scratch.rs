@@ -67,6 +67,41 @@ impl<B: Blend, const E: usize, const O: usize, const V: usize> Scratch<B, E, O, 
         out: &mut Vec<B::Point, P>,
         next: Option<&mut SolidArena<T2, O2, S2, C2, K2>>,
     ) -> Result<(), MeshError> {
+        self.refine_by(
+            blend,
+            solid,
+            points,
+            out,
+            next,
+            |blend, numbering, points, buffers| {
+                refine_points(blend, solid, numbering, boundary, points, buffers).map(|_| ())
+            },
+        )
+    }
+
+    /// Refines one level with any scheme that splits cells as this one does: `refine` computes
+    /// the values.
+    pub(crate) fn refine_by<
+        const P: usize,
+        const T2: usize,
+        const O2: usize,
+        const S2: usize,
+        const C2: usize,
+        const K2: usize,
+    >(
+        &mut self,
+        blend: &mut B,
+        solid: &Solid<'_>,
+        points: &[B::Point],
+        out: &mut Vec<B::Point, P>,
+        next: Option<&mut SolidArena<T2, O2, S2, C2, K2>>,
+        refine: impl FnOnce(
+            &mut B,
+            &Numbering<'_>,
+            &[B::Point],
+            PointBuffers<'_, B>,
+        ) -> Result<(), MeshError>,
+    ) -> Result<(), MeshError> {
         let numbering = number(&mut self.edges, &mut self.octahedra, solid)?;
         let vertices = usize::try_from(numbering.vertex_count()).unwrap_or(usize::MAX);
         let old = usize::try_from(solid.vertex_count).unwrap_or(usize::MAX);
@@ -94,7 +129,7 @@ impl<B: Blend, const E: usize, const O: usize, const V: usize> Scratch<B, E, O, 
             sums: &mut self.sums,
             states: &mut self.states,
         };
-        refine_points(blend, solid, &numbering, boundary, points, buffers).map(|_| ())
+        refine(blend, &numbering, points, buffers)
     }
 }
 
