@@ -1,7 +1,7 @@
 //! Major diagonals: a number for each cell, and how children inherit it.
 
 use super::choice::DiagonalBuffers;
-use crate::mesh::{Arena, MeshError, Part, Solid, require};
+use crate::mesh::{Arena, MeshError, OCTAHEDRON_FACES, Part, Solid, require};
 
 /// The major diagonal of every cell: 0, 1 or 2 (see the [module documentation](super)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,8 +38,13 @@ fn check_part(part: Part, diagonals: &[u8], cells: usize) -> Result<(), MeshErro
     }
 }
 
-/// The major diagonals of the cells that [`split`](super::split) makes: each child's is its
-/// parent's.
+/// The major diagonals of the cells that [`split`](super::split) makes: each child keeps the
+/// direction of its parent's.
+///
+/// In this library's order of corners that is the parent's number, except in the tetrahedron on a
+/// face of an octahedron: `(centroid, m_bc, m_ca, m_ab)` pairs its corners with `a`, `b`, `c`, so
+/// its number is the place in the face of the corner on the parent's diagonal. In the faces whose
+/// corners come from the pairs 0, 2, 1 the numbers 1 and 2 change places.
 ///
 /// Writes one number for each refined cell and returns the filled part.
 ///
@@ -56,16 +61,16 @@ pub fn split_diagonals<'a>(
     require(Arena::Diagonals, octahedra, buffers.octahedra.len())?;
     let tetrahedra = buffers.tetrahedra.get_mut(..tetrahedra).unwrap_or_default();
     let octahedra = buffers.octahedra.get_mut(..octahedra).unwrap_or_default();
-    for (children, first, from_tetrahedra, from_octahedra) in [
-        (&mut *tetrahedra, tetrahedra_first, 4, 8),
-        (&mut *octahedra, octahedra_first, 1, 6),
-    ] {
-        let (of_tetrahedra, of_octahedra) = children
-            .split_at_mut_checked(first)
-            .ok_or(MeshError::TooLarge)?;
-        hand_on(diagonals.tetrahedra, of_tetrahedra, from_tetrahedra);
-        hand_on(diagonals.octahedra, of_octahedra, from_octahedra);
-    }
+    let (of_tetrahedra, of_octahedra) = tetrahedra
+        .split_at_mut_checked(tetrahedra_first)
+        .ok_or(MeshError::TooLarge)?;
+    hand_on(diagonals.tetrahedra, of_tetrahedra, |_| [0, 1, 2], 4);
+    hand_on(diagonals.octahedra, of_octahedra, on_face, 8);
+    let (of_tetrahedra, of_octahedra) = octahedra
+        .split_at_mut_checked(octahedra_first)
+        .ok_or(MeshError::TooLarge)?;
+    hand_on(diagonals.tetrahedra, of_tetrahedra, |_| [0, 1, 2], 1);
+    hand_on(diagonals.octahedra, of_octahedra, |_| [0, 1, 2], 6);
     Ok(Diagonals {
         tetrahedra,
         octahedra,
@@ -85,8 +90,27 @@ pub(super) fn child_counts(diagonals: &Diagonals<'_>) -> Option<[usize; 4]> {
     ])
 }
 
-fn hand_on(parents: &[u8], children: &mut [u8], each: usize) {
+/// Writes the diagonals of `each` children of every parent; `numbers` says what becomes of 0, 1
+/// and 2 in a child.
+fn hand_on(parents: &[u8], children: &mut [u8], numbers: impl Fn(usize) -> [u8; 3], each: usize) {
     for (&diagonal, children) in parents.iter().zip(children.chunks_mut(each)) {
-        children.fill(diagonal);
+        for (child, slot) in children.iter_mut().enumerate() {
+            let place = usize::from(diagonal);
+            *slot = numbers(child).get(place).copied().unwrap_or(diagonal);
+        }
     }
+}
+
+/// What becomes of the diagonals of an octahedron in the tetrahedron on one of its faces.
+fn on_face(face: usize) -> [u8; 3] {
+    let mut numbers = [0, 1, 2];
+    let face = OCTAHEDRON_FACES.get(face).copied().unwrap_or_default();
+    for (corner, number) in face.into_iter().zip(0_u8..) {
+        // Opposite corners, of the same pair, are three apart.
+        let pair = corner.checked_rem(3).and_then(|pair| numbers.get_mut(pair));
+        if let Some(slot) = pair {
+            *slot = number;
+        }
+    }
+    numbers
 }

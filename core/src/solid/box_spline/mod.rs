@@ -12,8 +12,7 @@
 //! So every cell carries a number from 0 to 2 (two bits): in an octahedron the pair of opposite
 //! corners `(0, 3)`, `(1, 4)` or `(2, 5)`, in a tetrahedron the pair of opposite edges
 //! `01 23`, `02 13` or `03 12`, which says where the diagonal of its middle octahedron will be.
-//! Children keep the direction, which in this library's order of corners is the same number
-//! ([`split_diagonals`]). The numbers come from [`choose_diagonals`] (the paper's Algorithm 2
+//! Children keep the direction ([`split_diagonals`]). The numbers come from [`choose_diagonals`] (the paper's Algorithm 2
 //! made deterministic) or from the caller, and [`improper_faces`] lists the faces where
 //! they clash. **They depend on the order of the cells and of their corners**: the same
 //! tetrahedra listed in another order can get other diagonals and so another solid. Keep the

@@ -71,15 +71,25 @@ impl<'a> Neighbours<'a> {
         })
     }
 
-    /// `[p, q, corner]` where `p q` is a diagonal and `corner` is next to both, so that `q` is a
-    /// neighbour of the edge `p corner` and `p` of `q corner`; without those that are triangles
-    /// of another cell, which has counted them.
-    pub(super) fn spokes(&self) -> impl Iterator<Item = [u32; 3]> {
-        self.spokes.iter().copied().filter(|&spoke| {
-            let mut corners = spoke;
+    /// Edges with the vertices across octahedra that are their neighbours, each pair once, without
+    /// those that a triangle at the edge has counted.
+    pub(super) fn across(&self) -> impl Iterator<Item = ([u32; 2], u32)> {
+        self.spokes.iter().flat_map(move |&[p, q, corner]| {
+            let mut corners = [p, q, corner];
             corners.sort_unstable();
-            self.triangles.binary_search(&corners).is_err()
+            let is_new = self.triangles.binary_search(&corners).is_err();
+            [(p, q), (q, p)]
+                .into_iter()
+                .filter(move |&(end, far)| is_new && self.is_first(end, corner, far))
+                .map(move |(end, far)| ([end, corner], far))
         })
+    }
+
+    /// Whether `far`, opposite `end`, is not opposite `corner` too in another octahedron, which
+    /// then says the same of the edge `end corner`; one of the two is the first.
+    fn is_first(&self, end: u32, corner: u32, far: u32) -> bool {
+        let other = [corner.min(far), corner.max(far), end];
+        end < corner || self.spokes.binary_search(&other).is_err()
     }
 
     /// The ends of the diagonals, each pair once.

@@ -147,11 +147,9 @@ impl Neighbours<'_> {
                 gather.interior(q, ACROSS, [(i64::from(ACROSS), p)])?;
             }
         }
-        for [p, q, corner] in self.spokes() {
-            let to_p = numbering.midpoint(p, corner)?;
-            gather.interior(to_p, ACROSS, [(i64::from(ACROSS), q)])?;
-            let to_q = numbering.midpoint(q, corner)?;
-            gather.interior(to_q, ACROSS, [(i64::from(ACROSS), p)])?;
+        for ([end, corner], far) in self.across() {
+            let middle = numbering.midpoint(end, corner)?;
+            gather.interior(middle, ACROSS, [(i64::from(ACROSS), far)])?;
         }
         Some(())
     }

@@ -1,0 +1,13 @@
+//! Core's box-spline solids against the independent reference, bit for bit.
+
+use octruss_host_tests::box_spline_cases::compare;
+
+/// Some hundred random solids; `cargo xtask verify` runs thousands of others through the same
+/// function.
+#[test]
+fn random_solids_agree_in_every_bit() {
+    let compared = compare(0..600);
+    println!("{compared:?}");
+    assert_eq!(compared.cases, 600);
+    assert!(compared.with_sheets > 100 && compared.diagonals > 500);
+}
