@@ -259,7 +259,6 @@ fn split_with_guards(level: &BoxSolid, numbering: &Numbering<'_>) -> Result<BoxS
         surface: &mut surface,
         creases: &mut creases,
         corners: &mut corners,
-        ..SolidBuffers::default()
     };
     let mut next = {
         let refined = split(&view, numbering, buffers)?;

@@ -73,7 +73,7 @@ impl Case {
         Self {
             seed,
             cells,
-            is_chosen: seed % 3 == 0,
+            is_chosen: seed.is_multiple_of(3),
             scheme: if seed % 3 == 1 {
                 Scheme::Averaged
             } else {

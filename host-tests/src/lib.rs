@@ -10,6 +10,8 @@
 //! - [`random_mesh`] and [`random_table`] draw the random cases, from a seed alone.
 //! - [`equality`] runs core against the reference, [`compare`] says what differs, [`distance`]
 //!   measures how far both are from real numbers, [`snapshot`] keeps printed figures.
+//! - [`reference_box_spline`] is paper 2 written again in the same way; [`box_spline`] and
+//!   [`box_spline_cases`] drive the crate under test on it.
 //! - [`reference_surface`] is the surface schemes written again, in double precision that is exact
 //!   by construction; [`random_surface`] draws control meshes from a seed, and
 //!   [`surface_subject`] and [`surface_rows`] drive the crate under test on them.
@@ -18,6 +20,8 @@ pub mod bundle_bytes;
 pub mod compare;
 pub mod distance;
 pub mod equality;
+pub mod box_spline;
+pub mod box_spline_cases;
 pub mod local;
 pub mod meshes;
 pub mod random_mesh;
@@ -25,6 +29,7 @@ pub mod random_surface;
 pub mod random_table;
 pub mod rational;
 pub mod reference;
+pub mod reference_box_spline;
 pub mod reference_surface;
 pub mod snapshot;
 pub mod spectrum;

@@ -381,7 +381,6 @@ impl fmt::Display for MeshError {
                     "the major diagonal of {part} {index} is {value}; it must be 0, 1 or 2"
                 )
             }
-            Self::OtherNumbering => f.write_str("the numbering belongs to another solid"),
             Self::TooLarge => f.write_str("the refined mesh needs more than 2^32 - 1 vertices"),
         }
     }

@@ -3,6 +3,7 @@
 use octruss::solid::box_spline::Boundary;
 use octruss_host_tests::box_spline::{BoxSolid, masks};
 use octruss_host_tests::rational::{BigRational, Row, ratio, unit_row};
+use octruss_host_tests::spectrum::{eigenvalue_magnitudes, to_matrix};
 
 /// A square matrix of exact weights.
 pub type Matrix = Vec<Vec<BigRational>>;
@@ -155,20 +156,17 @@ pub fn parse(text: &str) -> Matrix {
         .collect()
 }
 
-/// The real parts of all eigenvalues, greatest first; all of these matrices' leading ones are
-/// real.
+/// The eigenvalues, greatest first; all of these matrices' leading ones are real and positive.
+///
+/// They are those of the matrix plus one, less one, in turned coordinates: the outer blocks have
+/// eigenvalue zero many times over and turn rings in circles, and the iteration would not end.
 pub fn eigenvalues(matrix: &Matrix) -> Vec<f64> {
-    use num_traits::ToPrimitive as _;
     let size = matrix.len();
-    let entry = |i: usize, k: usize| matrix[i][k].to_f64().expect("a small fraction");
-    let matrix = nalgebra::DMatrix::from_fn(size, size, entry);
-    // Moved by one: near an eigenvalue of zero the relative test for convergence never passes.
-    let moved = matrix + nalgebra::DMatrix::identity(size, size);
-    let schur = nalgebra::Schur::try_new(moved, 1e-14, 10_000).expect("it converges");
-    let values = schur.complex_eigenvalues();
-    let mut values: Vec<f64> = values.iter().map(|z| z.re - 1.0).collect();
-    values.sort_by(|a, b| b.total_cmp(a));
-    values
+    let moved = to_matrix(matrix) + nalgebra::DMatrix::identity(size, size);
+    let turn = nalgebra::DMatrix::from_fn(size, size, |i, k| ((i * size + k + 1) as f64).sin());
+    let turn = turn.qr().q();
+    let values = eigenvalue_magnitudes(&(turn.transpose() * moved * &turn)).into_iter();
+    values.map(|value| value - 1.0).collect()
 }
 
 /// A row of one vertex alone, to compare with.
