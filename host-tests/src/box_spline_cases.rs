@@ -62,7 +62,7 @@ impl Case {
             vertex_count: u32::try_from(solid.vertex_count).expect("few vertices"),
             tetrahedra,
             octahedra,
-            sheets: Vec::new(),
+            sheets: solid.sheets,
             creases: solid.creases,
             corners: solid.corners,
         };

@@ -16,12 +16,12 @@
 //!   by construction; [`random_surface`] draws control meshes from a seed, and
 //!   [`surface_subject`] and [`surface_rows`] drive the crate under test on them.
 
+pub mod box_spline;
+pub mod box_spline_cases;
 pub mod bundle_bytes;
 pub mod compare;
 pub mod distance;
 pub mod equality;
-pub mod box_spline;
-pub mod box_spline_cases;
 pub mod local;
 pub mod meshes;
 pub mod random_mesh;

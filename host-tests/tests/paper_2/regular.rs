@@ -177,26 +177,22 @@ fn averaged_masks_are_the_mean_of_the_three() {
             *mask.entry(offset).or_insert(0) += weight;
         }
     }
-    let weights = |wanted: fn(&Point) -> bool| {
-        let mut weights: Vec<i64> = mask
-            .iter()
-            .filter(|(p, _)| wanted(p))
-            .map(|(_, w)| *w)
-            .collect();
+    // The weights that the refined vertex at `fine` gives: to offsets from twice a lattice point,
+    // whose coordinates have an even sum.
+    let weights = |fine: Point| {
+        let is_lattice = |offset: &Point| {
+            let twice = [0, 1, 2].map(|k| fine[k] - offset[k]);
+            twice.iter().all(|x| x % 2 == 0) && twice.iter().sum::<i32>() % 4 == 0
+        };
+        let chosen = mask.iter().filter(|(offset, _)| is_lattice(offset));
+        let mut weights: Vec<i64> = chosen.map(|(_, weight)| *weight).collect();
         weights.sort_unstable();
         weights
     };
-    // Offsets whose coordinates are all even and add up to a multiple of four belong to vertices.
-    let of_vertex = weights(|p| p.iter().all(|x| x % 2 == 0) && p.iter().sum::<i32>() % 4 == 0);
+    let of_vertex = weights([0, 0, 0]);
     assert_eq!(of_vertex, [[1; 6].as_slice(), &[3; 12], &[54]].concat());
-    let of_cell = weights(|p| p.iter().all(|x| x % 2 == 0) && p.iter().sum::<i32>() % 4 != 0);
-    assert_eq!(of_cell, [16; 6]);
-    let of_edge = weights(|p| {
-        p[0] % 2 == 0 && p[1] % 2 != 0 && (p[1] + p[2]) % 4 == 0 && p[0] % 4 == 0
-            || p[0] % 4 != 0 && p[0] % 2 == 0 && p[1] % 2 != 0 && (p[1] + p[2]) % 4 != 0
-    });
-    assert_eq!(of_edge.iter().sum::<i64>(), 96);
-    assert_eq!(of_edge, [2, 2, 2, 2, 8, 8, 8, 8, 28, 28]);
+    assert_eq!(weights([0, 1, 1]), [2, 2, 2, 2, 8, 8, 8, 8, 28, 28]);
+    assert_eq!(weights([0, 0, 2]), [16; 6]);
 
     let (mut solid, points) = along(0);
     solid.is_averaged = true;
