@@ -2,9 +2,12 @@
 //! it says it needs.
 
 use octruss::blend::{Blend, FixedBlend};
-use octruss::mesh::{ControlMesh, ControlMeshBuffers, FaceOrder, MeshError, Side, SurfaceEdges};
+use octruss::mesh::{
+    ControlMesh, ControlMeshBuffers, FaceOrder, Fans, MeshError, Side, SurfaceEdges,
+};
 use octruss::surface::{
-    LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, catmull_clark, loop_scheme, sqrt3,
+    LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark,
+    doo_sabin, loop_scheme, sqrt3,
 };
 
 use crate::reference_surface::{Border, Family, Polygons};
@@ -90,6 +93,13 @@ pub enum Scheme {
     Loop(Family),
     /// Kobbelt's square-root-3 scheme.
     Sqrt3,
+    /// Doo and Sabin's.
+    DooSabin,
+    /// The butterfly of 1990, or the modified one.
+    Butterfly {
+        /// The stencils of 1996 at vertices of valence other than 6.
+        modified: bool,
+    },
 }
 
 /// The crate's name for a rim.
@@ -207,6 +217,31 @@ pub fn refine<B: Blend>(
             sqrt3::refine_points(blend, &mesh, &numbering, points, memory.buffers())?;
             Ok((polygons(&next), memory.out))
         }
+        Scheme::DooSabin => {
+            let mut starts = vec![0; mesh.vertex_count as usize];
+            let fans = Fans::new(mesh, edges, &mut starts)?;
+            let counts = doo_sabin::split_counts(&fans).ok_or(MeshError::TooLarge)?;
+            let mut refined = Lists::of_counts(&counts);
+            let next = doo_sabin::split(&fans, refined.buffers())?;
+            let mut memory = Memory::new(blend, next.vertex_count as usize);
+            let Memory { out, sums, .. } = &mut memory;
+            doo_sabin::refine_points(blend, &mesh, points, out, sums)?;
+            Ok((polygons(&next), memory.out))
+        }
+        Scheme::Butterfly { modified } => {
+            let counts = butterfly::split_counts(&mesh, &edges);
+            let mut refined = Lists::of_counts(&counts.ok_or(MeshError::TooLarge)?);
+            let next = butterfly::split(&mesh, &edges, refined.buffers())?;
+            let mut memory = Memory::new(blend, next.vertex_count as usize);
+            let variant = if modified {
+                butterfly::Variant::Modified
+            } else {
+                butterfly::Variant::Original
+            };
+            let buffers = memory.buffers();
+            butterfly::refine_points(blend, &mesh, &edges, variant, rim, points, buffers)?;
+            Ok((polygons(&next), memory.out))
+        }
     }
 }
 
@@ -226,7 +261,7 @@ pub fn refine_bits(
     )
 }
 
-/// Limit positions of any value type.
+/// Limit positions of any value type: of vertices, for Doo-Sabin of faces.
 pub fn limit<B: Blend>(
     blend: &mut B,
     scheme: Scheme,
@@ -243,6 +278,14 @@ pub fn limit<B: Blend>(
     let mut memory = Memory::new(blend, count);
     let buffers = memory.buffers();
     let limit = match scheme {
+        Scheme::DooSabin => {
+            let mut out = memory.out[..1].to_vec();
+            out.resize(mesh.face_count(), memory.out[0].clone());
+            return doo_sabin::limit_points(blend, &mesh, points, &mut out)
+                .map(|limit| limit.to_vec());
+        }
+        // It goes through all vertices.
+        Scheme::Butterfly { .. } => return Ok(points.to_vec()),
         Scheme::CatmullClark => {
             catmull_clark::limit_points(blend, &mesh, &edges, rim, points, buffers)?
         }

@@ -9,8 +9,8 @@ use octruss::blend::FixedBlend;
 use octruss::mesh::MeshError;
 use octruss_host_tests::random_surface::{Shape, SurfaceCase, Wishes};
 use octruss_host_tests::reference_surface::{
-    Border, Family, Grid, Polygons, Refined, apply, catmull_clark, catmull_clark_limit, loop_limit,
-    loop_rule, sqrt3, sqrt3_limit,
+    Border, Family, Grid, Polygons, Refined, Row, apply, butterfly, catmull_clark,
+    catmull_clark_limit, doo_sabin, loop_limit, loop_rule, sqrt3, sqrt3_limit,
 };
 use octruss_host_tests::surface_subject::{AdaptiveMemory, Scheme, limit, refine_bits};
 
@@ -86,6 +86,88 @@ fn loop_equals_the_reference() {
         let want = apply(&loop_limit(&mesh, family, border, Grid::Device), &points);
         assert_eq!(got, Ok(want), "seed {seed}, limit");
         assert_eq!(blend.saturated(), 0);
+    }
+}
+
+#[test]
+fn doo_sabin_equals_the_reference() {
+    let mut compared = 0;
+    for seed in 0..case_count() {
+        let SurfaceCase {
+            mut mesh,
+            mut points,
+        } = SurfaceCase::new(
+            seed,
+            Wishes {
+                features: false,
+                tangled: false,
+                ..wishes(Shape::Polygons)
+            },
+        );
+        for level in 0..1 + seed % 3 {
+            let (got, got_points) =
+                match refine_bits(Scheme::DooSabin, Border::Spline, &mesh, &points) {
+                    Ok(got) => got,
+                    // Taking faces out can leave two fans that touch.
+                    Err(MeshError::NotManifold { vertex }) => {
+                        assert!(has_two_fans(&mesh, vertex), "seed {seed}: {vertex}");
+                        break;
+                    }
+                    Err(error) => panic!("seed {seed}, level {level}: {error}"),
+                };
+            let want = doo_sabin(&mesh, Grid::Device);
+            assert_eq!(got, want.mesh, "seed {seed}, level {level}");
+            assert_eq!(
+                got_points,
+                want.points(&points),
+                "seed {seed}, level {level}"
+            );
+            (mesh, points) = (got, got_points);
+            compared += 1;
+        }
+        let mut blend = FixedBlend::<i32, 3>::new();
+        let got = limit(&mut blend, Scheme::DooSabin, Border::Spline, &mesh, &points);
+        let want: Vec<Row> = mesh.faces.iter().map(|face| Row::mean(face)).collect();
+        if let Ok(got) = got {
+            assert_eq!(got, apply(&want, &points), "seed {seed}, limit");
+        }
+    }
+    assert!(compared > case_count());
+}
+
+/// Faces at a vertex that do not all hang together over edges at the vertex.
+fn has_two_fans(mesh: &Polygons, vertex: u32) -> bool {
+    let at: Vec<&Vec<u32>> = mesh.faces.iter().filter(|f| f.contains(&vertex)).collect();
+    let mut reached = BTreeSet::from([0]);
+    while let Some(next) = (0..at.len()).find(|i| {
+        !reached.contains(i)
+            && reached.iter().any(|j| {
+                let share = |v: &&u32| **v != vertex && at[*j].contains(v);
+                let neighbours =
+                    |v: &u32| mesh.edges().contains_key(&[vertex.min(*v), vertex.max(*v)]);
+                at[*i].iter().filter(share).any(|v| neighbours(v))
+            })
+    }) {
+        reached.insert(next);
+    }
+    reached.len() < at.len()
+}
+
+#[test]
+fn butterfly_equals_the_reference() {
+    for modified in [false, true] {
+        for seed in 0..case_count() {
+            let wishes = Wishes {
+                tangled: false,
+                ..wishes(Shape::Triangles)
+            };
+            compare(
+                seed,
+                wishes,
+                Scheme::Butterfly { modified },
+                |mesh, border| butterfly(mesh, modified, border, Grid::Device),
+            );
+        }
     }
 }
 

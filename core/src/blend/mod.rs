@@ -33,6 +33,16 @@ pub enum NeighbourWeight {
     },
 }
 
+/// An irrational weight of a mask that is counted in units of 2^-30.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct IrrationalWeight {
+    /// The device's weight, in units of 2^-30.
+    pub bits: i64,
+    /// The real number.
+    pub real: f64,
+}
+
 /// A value type that a mesh can carry, and how a weighted sum of it is formed.
 ///
 /// A rule calls [`Blend::zero`], then [`Blend::add`] for every value that enters, and ends with
@@ -51,6 +61,14 @@ pub trait Blend {
 
     /// `sum += weight * other`.
     fn add_sum(&self, sum: &mut Self::Sum, weight: i64, other: &Self::Sum);
+
+    /// `sum += weight * 2^30 * point`.
+    ///
+    /// The default takes the device's weight. A value type of real numbers overrides it to use the
+    /// real weight.
+    fn add_irrational(&self, sum: &mut Self::Sum, weight: IrrationalWeight, point: &Self::Point) {
+        self.add(sum, weight.bits, point);
+    }
 
     /// `sum / denominator`, rounded if the value type rounds. `denominator` is positive.
     fn divide(&mut self, sum: &Self::Sum, denominator: i64) -> Self::Point;

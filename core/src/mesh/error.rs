@@ -80,6 +80,8 @@ pub enum Arena {
     CellQueue,
     /// Triples that say who is whose neighbour.
     Neighbours,
+    /// Where the faces around each vertex start.
+    FanStarts,
 }
 
 /// Why a mesh cannot be refined as it is, or where it is to go.
@@ -261,6 +263,7 @@ impl fmt::Display for Arena {
             Self::Diagonals => "major diagonals",
             Self::CellQueue => "cells in the queue",
             Self::Neighbours => "neighbours",
+            Self::FanStarts => "fan starts",
         })
     }
 }
@@ -307,11 +310,11 @@ impl fmt::Display for MeshError {
                 )
             }
             Self::UnsupportedPart { part } => {
-                write!(
-                    f,
-                    "the mesh has a {part}, which this scheme does not refine; "
-                )?;
-                f.write_str("the mixed scheme does")
+                write!(f, "the mesh has a {part}, which this scheme does not refine")?;
+                match part {
+                    Part::Crease | Part::Corner => f.write_str(": remove it"),
+                    _ => f.write_str("; the mixed scheme does"),
+                }
             }
             Self::OtherNumbering => f.write_str("the numbering belongs to another mesh"),
             Self::Offsets { face } => write!(

@@ -8,11 +8,15 @@
 //! * [`catmull_clark`]: any polygons, quads from the first level on.
 //! * [`loop_scheme`]: triangles, with the weight families of [`loop_weights`], which the boundary
 //!   of a solid shares.
+//! * [`doo_sabin`]: any polygons, a face for each face, edge and vertex.
+//! * [`butterfly`]: triangles, through all vertices; the stencil of 1990 and the modified one.
 //! * [`sqrt3`]: triangles, three for each, the square root of 3 a step; uniform and adaptive.
 //!
 //! [`features`] says what boundaries, creases and corners follow.
 
+pub mod butterfly;
 pub mod catmull_clark;
+pub mod doo_sabin;
 pub mod features;
 mod irrational;
 pub mod loop_scheme;

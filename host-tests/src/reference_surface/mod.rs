@@ -7,13 +7,17 @@
 //! own words ("the mean of the face points, twice the mean of the midpoints"). [`Row::round`]
 //! applies it to 32-bit integers, exactly, and rounds once.
 
+mod butterfly;
 mod catmull_clark;
+mod doo_sabin;
 mod loop_rule;
 mod polygons;
 mod row;
 mod sqrt3;
 
+pub use butterfly::butterfly;
 pub use catmull_clark::{catmull_clark, catmull_clark_limit};
+pub use doo_sabin::doo_sabin;
 pub use loop_rule::{Family, loop_limit, loop_rule};
 pub use polygons::{Border, Kind, Polygons, edge, sides};
 pub use row::{Grid, Row, WEIGHT_UNIT};
