@@ -146,7 +146,7 @@ fn has_two_fans(mesh: &Polygons, vertex: u32) -> bool {
                 let share = |v: &&u32| **v != vertex && at[*j].contains(v);
                 let neighbours =
                     |v: &u32| mesh.edges().contains_key(&[vertex.min(*v), vertex.max(*v)]);
-                at[*i].iter().filter(share).any(|v| neighbours(v))
+                at[*i].iter().filter(share).any(neighbours)
             })
     }) {
         reached.insert(next);
