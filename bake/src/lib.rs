@@ -12,7 +12,7 @@
 //!   bound of their error.
 //! * [`bundle`]: the bytes for the device's flash.
 //! * [`mod@deform`]: the device's own code applied on the host.
-//! * [`write`], [`picture`]: files to look at.
+//! * [`mod@write`], [`picture`]: files to look at.
 //!
 //! No mathematics that a device could also need is written here: masks, numbering, rounding and the
 //! apply come from the crate `octruss`. Nothing panics on bad input; errors ([`error::Error`]) say

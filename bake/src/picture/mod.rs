@@ -150,7 +150,7 @@ fn check(scene: &Scene<'_>, frames: &[Frame]) -> Result<()> {
     Ok(())
 }
 
-/// About [`ASPECT`] times as wide as high; of three numbers near that, the one that leaves the
+/// About half as wide again as high; of three numbers near that, the one that leaves the
 /// fewest places empty.
 fn columns(sheet: &Sheet, frames: usize) -> u32 {
     const ASPECT: f64 = 1.5;

@@ -3,7 +3,7 @@
 //! The cage at rest is refined in double precision ([`crate::refine`]), every model point is
 //! located in a cell of the last level ([`crate::locate`]), and its weights there are carried back
 //! to the control points: `D = B * S_K * ... * S_1`, equation (1) of "Smooth Subdivision of
-//! Tetrahedral Meshes". The real weights become integers that sum to one ([`quantise`]);
+//! Tetrahedral Meshes". The real weights become integers that sum to one ([`mod@quantise`]);
 //! [`precision`] says what that costs; [`crate::bundle`] writes the bytes.
 
 pub mod format;
