@@ -22,9 +22,9 @@ enum Numeric {
 
 /// Refines a mesh and writes the refined one
 ///
-/// The output is a solid as .vtu (octahedra as polyhedra, all vertices in the refined order), or its
-/// boundary as .obj (the triangles and their vertices, in the refined order). Neither holds creases
-/// and corners: refine once with all the levels wanted.
+/// The output is a solid as .vtu (octahedra as polyhedra, all vertices in the refined order), or
+/// its boundary as .obj (the triangles and their vertices, in the refined order). Neither holds
+/// creases and corners: refine once with all the levels wanted.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu

@@ -182,3 +182,60 @@ fn row_error(row: &Row, quantised: &QuantisedRow, value: impl Fn(u32) -> i128) -
     let result = (sum + half) >> WEIGHT_BITS;
     ((result << REAL_BITS) - real).abs() as f64 / scale
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Halves are exact as integers, so that only the rounding is left: it is off by exactly half
+    /// a unit whenever the two coordinates differ by an odd number, which some random ones do.
+    #[test]
+    fn exact_weights_leave_half_a_unit() {
+        let rows = [vec![(0, 0.5), (1, 0.5)]];
+        let quantised = [QuantisedRow {
+            taps: vec![(0, 1 << 29), (1, 1 << 29)],
+        }];
+        let table = Table {
+            rows: &rows,
+            quantised: &quantised,
+            rest_cage: &[[0; 3], [7; 3]],
+            composition: 0.0,
+        };
+        let precision = table.precision(4, 1);
+        for form in [precision.absolute, precision.displacement] {
+            assert_eq!(
+                (form.proved_any_pose, form.proved_rest_size, form.measured),
+                (0.5, 0.5, 0.5)
+            );
+        }
+    }
+
+    /// One unit of 2^-30 moved from one weight to the other, by hand: over the whole range the two
+    /// coordinates differ by at most 2^32 - 1, so the sum by at most (2^32 - 1) / 2^30 = 4 -
+    /// 2^-30; over a cage of 2^20 units by 2^-10.
+    #[test]
+    fn a_moved_unit_is_bounded_by_the_range() {
+        let rows = [vec![(0, 0.5), (1, 0.5)]];
+        let quantised = [QuantisedRow {
+            taps: vec![(0, (1 << 29) + 1), (1, (1 << 29) - 1)],
+        }];
+        let rest_cage = [[0; 3], [1 << 20, 0, 0]];
+        let table = Table {
+            rows: &rows,
+            quantised: &quantised,
+            rest_cage: &rest_cage,
+            composition: 0.0,
+        };
+        let precision = table.precision(1, 1);
+        let moved = 4.0 - 2.0_f64.powi(-30);
+        assert_eq!(precision.absolute.proved_any_pose, moved + 0.5);
+        assert_eq!(precision.absolute.proved_rest_size, 2.0_f64.powi(-10) + 0.5);
+        assert_eq!(
+            precision.displacement.proved_any_pose,
+            moved + 2.0_f64.powi(-10) + 0.5
+        );
+        // At the ends of the range: the exact sum is -1/2 + 4 - 2^-30, and rounds to 3 and not to
+        // 4; the unquantised one is -1/2.
+        assert_eq!(precision.absolute.measured, 3.5);
+    }
+}

@@ -98,6 +98,21 @@ mod tests {
         assert!((total_change(&row, &quantised) - 1.2).abs() < 1e-6);
     }
 
+    /// In units of 2^-30: 0.6, 0.7 and 0.7 over whole numbers round up and make one unit too many,
+    /// which the weight gives back that was rounded up furthest.
+    #[test]
+    fn what_is_too_much_is_taken_where_rounding_added_most() {
+        let quarter = (ONE / 4) as f64;
+        let row = vec![
+            (3, (quarter + 0.7) * UNIT),
+            (5, (quarter - 2.0 + 0.6) * UNIT),
+            (9, (2.0 * quarter + 0.7) * UNIT),
+        ];
+        let quarter = (ONE / 4) as i32;
+        let expected = [(3, quarter + 1), (5, quarter - 2), (9, 2 * quarter + 1)];
+        assert_eq!(quantise(&row).unwrap().taps, expected);
+    }
+
     #[test]
     fn ties_go_to_the_lower_control_point_and_zeros_are_dropped() {
         // 1/3 each: 2^30 = 3 * 357913941 + 1.
