@@ -122,6 +122,8 @@ fn header(contents: &Contents<'_>, taps: usize, total: usize) -> Header {
     }
     let scheme = match contents.scheme {
         Scheme::TetOct => bundle::SCHEME_TET_OCT,
+        Scheme::BoxSpline => bundle::SCHEME_BOX_SPLINE,
+        Scheme::BoxSplineAveraged => bundle::SCHEME_BOX_SPLINE_AVERAGED,
     };
     Header {
         magic: bundle::MAGIC,

@@ -4,13 +4,24 @@ use crate::check::{self, Volumes};
 use crate::error::Result;
 use crate::geometry::bounds;
 use crate::mesh::{Point, SolidMesh, Vertex};
-use crate::refine::Level;
+use crate::refine::{Interior, Level};
 use octruss::mesh::{Counts, OCTAHEDRON_EDGES, TETRAHEDRON_EDGES};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How many there are of each number of neighbours.
 pub type Histogram = BTreeMap<u32, usize>;
+
+/// What the box-spline schemes ask of a mesh.
+#[derive(Clone, Debug, Serialize)]
+pub struct BoxSplineFigures {
+    /// Numbers of cells with the major diagonals 0, 1 and 2; none in the averaged scheme.
+    pub cells_by_diagonal: Option<[usize; 3]>,
+    /// Faces at which the diagonals of two cells clash, by their corners.
+    pub improper_faces: Vec<[Vertex; 3]>,
+    /// Triples of neighbours (`N`) that refining the mesh once takes.
+    pub scratch_neighbours: usize,
+}
 
 /// The figures of a mesh.
 #[derive(Clone, Debug, Serialize)]
@@ -46,6 +57,9 @@ pub struct Inspection {
     pub irregular_boundary_edges: usize,
     /// Interior edges of three cells, along which the scheme tet-oct is not smooth.
     pub interior_edges_of_valence_3: Vec<[Vertex; 2]>,
+    /// Of the box-spline schemes, if one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub box_spline: Option<BoxSplineFigures>,
     /// Crease edges.
     pub creases: usize,
     /// Vertices by the number of crease edges at them (0 left out).
@@ -114,6 +128,36 @@ impl Capacities {
     }
 }
 
+impl Inspection {
+    /// Adds what the scheme of a level asks for.
+    ///
+    /// # Errors
+    /// If the connectivity is none of a solid.
+    pub fn add_scheme(&mut self, level: &Level) -> Result<()> {
+        let spokes = match &level.interior {
+            Interior::TetOct => return Ok(()),
+            Interior::BoxSpline(_) => 4,
+            Interior::BoxSplineAveraged => 12,
+        };
+        let cells_by_diagonal = match &level.interior {
+            Interior::BoxSpline(lists) => {
+                let mut counts = [0; 3];
+                for diagonal in lists.tetrahedra.iter().chain(&lists.octahedra) {
+                    counts[usize::from(*diagonal)] += 1;
+                }
+                Some(counts)
+            }
+            Interior::TetOct | Interior::BoxSplineAveraged => None,
+        };
+        self.box_spline = Some(BoxSplineFigures {
+            cells_by_diagonal,
+            improper_faces: level.improper_faces()?,
+            scratch_neighbours: 4 * self.tetrahedra + (8 + spokes) * self.octahedra,
+        });
+        Ok(())
+    }
+}
+
 /// Looks at a mesh; capacities are predicted up to `levels`.
 ///
 /// # Errors
@@ -149,6 +193,7 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         boundary_triangles: level.surface.len(),
         boundary_edges: surface.triangles.len(),
         irregular_boundary_edges: surface.triangles.values().filter(|n| **n != 2).count(),
+        box_spline: None,
         creases: mesh.features.creases.len(),
         crease_vertex_valences: edge_valences(mesh.features.creases.iter()),
         corners: mesh.features.corners.len(),

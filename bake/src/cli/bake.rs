@@ -1,6 +1,6 @@
 //! `octruss bake`.
 
-use super::{print_figures, progress::Bars, show_notes, source};
+use super::{print_figures, progress::Bars, scheme, show_notes, source};
 use octruss_bake::error::{Result, count};
 use octruss_bake::inspect::interior_edges_of_valence_3;
 use octruss_bake::refine::{BoundaryRule, Scheme};
@@ -25,6 +25,10 @@ pub struct Arguments {
     /// The subdivision scheme
     #[arg(long, value_enum, default_value_t)]
     scheme: Scheme,
+    /// File with the major diagonals of the cage's cells, for `box-spline`: 0, 1 or 2 for each
+    /// tetrahedron, then each octahedron, in file order; by default they are chosen
+    #[arg(long, value_name = "FILE")]
+    diagonals: Option<PathBuf>,
     /// How many times to refine the cage
     #[arg(long, value_name = "K", default_value_t = 2)]
     levels: u32,
@@ -79,15 +83,19 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     }
     let edges =
         interior_edges_of_valence_3(&cage).map_err(|error| error.in_file(&arguments.cage))?;
-    if !edges.is_empty() {
+    if !edges.is_empty() && arguments.scheme == Scheme::TetOct {
         eprintln!(
             "warning: {} of three cells, along which the map is not smooth; `octruss info` names them",
             count(edges.len(), "interior edge", "interior edges")
         );
     }
     let model = read::model(&arguments.model)?;
+    let diagonals = scheme::diagonals(arguments.scheme, arguments.diagonals.as_deref(), &cage)?;
+    scheme::warn_of_improper_faces(&cage, arguments.scheme, diagonals.as_ref())
+        .map_err(|error| error.in_file(&arguments.cage))?;
     let options = Options {
         scheme: arguments.scheme,
+        diagonals,
         boundary: arguments.boundary,
         levels: arguments.levels,
         fraction_bits: arguments.fraction_bits,

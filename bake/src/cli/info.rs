@@ -1,9 +1,10 @@
 //! `octruss info`.
 
-use super::print_figures;
-use octruss_bake::error::Result;
+use super::{print_figures, scheme};
+use octruss_bake::error::{Error, Result};
 use octruss_bake::inspect::{Histogram, Inspection, inspect};
-use octruss_bake::read;
+use octruss_bake::refine::{Interior, Level, Scheme};
+use octruss_bake::{read, write};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -19,6 +20,16 @@ pub struct Arguments {
     /// File with creases and corners: a line each, `crease A B` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
+    /// The scheme that the mesh is to be refined with: box-spline adds the choice of major diagonals
+    #[arg(long, value_enum, default_value_t)]
+    scheme: Scheme,
+    /// File with the major diagonals of the cells, for `box-spline`: 0, 1 or 2 for each
+    /// tetrahedron, then each octahedron, in file order; by default they are chosen
+    #[arg(long, value_name = "FILE")]
+    diagonals: Option<PathBuf>,
+    /// Also write the major diagonals, given or chosen, to a file that --diagonals reads
+    #[arg(long, value_name = "OUT")]
+    write_diagonals: Option<PathBuf>,
     /// Levels of refinement to list capacities for
     #[arg(long, value_name = "K", default_value_t = 3)]
     levels: u32,
@@ -30,8 +41,19 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
-    let inspection =
-        inspect(&mesh, arguments.levels).map_err(|error| error.in_file(&arguments.mesh))?;
+    let of_mesh = |error: Error| error.in_file(&arguments.mesh);
+    let mut inspection = inspect(&mesh, arguments.levels).map_err(of_mesh)?;
+    let diagonals = scheme::diagonals(arguments.scheme, arguments.diagonals.as_deref(), &mesh)?;
+    let level = Level::of_scheme(&mesh, arguments.scheme, diagonals.as_ref()).map_err(of_mesh)?;
+    inspection.add_scheme(&level).map_err(of_mesh)?;
+    if let Some(file) = &arguments.write_diagonals {
+        let Interior::BoxSpline(diagonals) = &level.interior else {
+            return Err(Error::new("only the scheme box-spline has major diagonals")
+                .advise("add --scheme box-spline")
+                .in_file(file));
+        };
+        write::atomically(file, |out| read::diagonals::write(diagonals, out))?;
+    }
     print_figures(&inspection, arguments.json, || words(&inspection))
 }
 
@@ -84,6 +106,7 @@ fn words(inspection: &Inspection) -> String {
         ),
     );
     features_and_volumes(&mut text, inspection);
+    box_spline(&mut text, inspection);
     capacities(&mut text, inspection);
     for note in &inspection.notes {
         let _ = writeln!(text, "note: {note}");
@@ -138,6 +161,31 @@ fn some(names: &[String]) -> String {
         number if number > SHOWN => format!("{number}: {}, ...", shown.join(", ")),
         number => format!("{number}: {}", shown.join(", ")),
     }
+}
+
+/// What the box-spline schemes add.
+fn box_spline(text: &mut String, inspection: &Inspection) {
+    let Some(figures) = &inspection.box_spline else {
+        return;
+    };
+    if let Some([first, second, third]) = figures.cells_by_diagonal {
+        let _ = writeln!(
+            text,
+            "{:<28}0 in {first} cells, 1 in {second}, 2 in {third}",
+            "major diagonals"
+        );
+        let faces: Vec<String> = figures
+            .improper_faces
+            .iter()
+            .map(|[a, b, c]| format!("{a}-{b}-{c}"))
+            .collect();
+        let _ = writeln!(text, "{:<28}{}", "faces where they clash", some(&faces));
+    }
+    let _ = writeln!(
+        text,
+        "{:<28}{} at level 0, box_spline::Scratch<_, E, O, V, N>",
+        "capacity N for neighbours", figures.scratch_neighbours
+    );
 }
 
 fn capacities(text: &mut String, inspection: &Inspection) {

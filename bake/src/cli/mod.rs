@@ -6,6 +6,7 @@ mod info;
 mod poses;
 mod progress;
 mod refine;
+mod scheme;
 mod source;
 
 use clap::{Parser, Subcommand};

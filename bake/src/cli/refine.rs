@@ -1,11 +1,11 @@
 //! `octruss refine`.
 
-use super::{print_figures, progress::Bars, show_notes};
+use super::{print_figures, progress::Bars, scheme, show_notes};
 use octruss_bake::check::{self, Volumes};
 use octruss_bake::error::{Error, Result, count};
 use octruss_bake::mesh::{Features, SolidMesh};
 use octruss_bake::progress::Progress;
-use octruss_bake::refine::{BoundaryRule, Level, Refinement, Scheme};
+use octruss_bake::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
 use octruss_bake::table::format::{Format, MOST_FRACTION_BITS};
 use octruss_bake::{read, write};
 use serde::Serialize;
@@ -32,6 +32,10 @@ pub struct Arguments {
     /// The subdivision scheme
     #[arg(long, value_enum, default_value_t)]
     scheme: Scheme,
+    /// File with the major diagonals of the cells, for `box-spline`: 0, 1 or 2 for each
+    /// tetrahedron, then each octahedron, in file order; by default they are chosen
+    #[arg(long, value_name = "FILE")]
+    diagonals: Option<PathBuf>,
     /// How many times to refine; a level has about eight times the cells of the one before
     #[arg(long, value_name = "K", default_value_t = 1)]
     levels: u32,
@@ -78,11 +82,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             .advise("a refined solid is written as .vtu, its boundary as .obj")
             .in_file(&arguments.output));
     }
-    let Scheme::TetOct = arguments.scheme;
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
-    let (refined, level, figures) =
-        refine(mesh, arguments).map_err(|error| error.in_file(&arguments.mesh))?;
+    let diagonals = scheme::diagonals(arguments.scheme, arguments.diagonals.as_deref(), &mesh)?;
+    scheme::warn_of_improper_faces(&mesh, arguments.scheme, diagonals.as_ref())
+        .map_err(|error| error.in_file(&arguments.mesh))?;
+    let (refined, level, figures) = refine(mesh, diagonals.as_ref(), arguments)
+        .map_err(|error| error.in_file(&arguments.mesh))?;
     write::atomically(&arguments.output, |out| match extension.as_str() {
         "vtu" => write::vtu::write(&refined, out),
         _ => write::obj::write_used(&refined.points, &level.surface, out),
@@ -102,9 +108,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     print_figures(&figures, arguments.json, || words(&figures))
 }
 
-fn refine(mesh: SolidMesh, arguments: &Arguments) -> Result<(SolidMesh, Level, Figures)> {
+fn refine(
+    mesh: SolidMesh,
+    diagonals: Option<&DiagonalLists>,
+    arguments: &Arguments,
+) -> Result<(SolidMesh, Level, Figures)> {
     check::require_sound_connectivity(&mesh)?;
-    let mut level = Level::new(&mesh)?;
+    let mut level = Level::of_scheme(&mesh, arguments.scheme, diagonals)?;
     level.require_levels(arguments.levels)?;
     let format = match arguments.fraction_bits {
         Some(fraction_bits) => Format { fraction_bits },

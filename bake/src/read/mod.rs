@@ -5,6 +5,7 @@
 //! together with the choice of the reader by the file name's extension. A new format is one more
 //! file and one more line in [`solid`] or [`model`].
 
+pub mod diagonals;
 pub mod features;
 pub mod gmsh;
 pub mod motion;
@@ -14,6 +15,7 @@ pub(crate) mod words;
 
 use crate::error::{Error, Result};
 use crate::mesh::SolidMesh;
+use crate::refine::DiagonalLists;
 use obj::Model;
 use std::path::Path;
 
@@ -57,6 +59,14 @@ pub fn solid_with_features(file: &Path, features: Option<&Path>) -> Result<Solid
         mesh.add_features(more);
     }
     Ok(mesh)
+}
+
+/// Reads the major diagonals of a mesh's cells, if there is a file of them.
+pub fn diagonals(file: Option<&Path>, mesh: &SolidMesh) -> Result<Option<DiagonalLists>> {
+    let read = |file: &Path| {
+        diagonals::read(&bytes(file)?, &mesh.cells).map_err(|error| error.in_file(file))
+    };
+    file.map(read).transpose()
 }
 
 /// Reads a model in the format that the file's extension names.

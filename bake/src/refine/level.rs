@@ -1,6 +1,6 @@
 //! One level of a solid in memory, and the step to the next.
 
-use super::RealBlend;
+use super::{DiagonalLists, Interior, RealBlend, Scheme};
 use crate::error::{Error, Result};
 use crate::mesh::{Cells, Point, SolidMesh};
 use octruss::blend::{Blend, FixedBlend};
@@ -8,6 +8,7 @@ use octruss::mesh::{
     Counts, MeshError, Numbering, Part, Solid, SolidBuffers, boundary_triangles, edge_capacity,
     face_capacity,
 };
+use octruss::solid::box_spline::{self, Neighbours, neighbour_capacity};
 use octruss::solid::tet_oct::{
     Boundary, PointBuffers, VertexState, refine_points, split, split_counts,
 };
@@ -25,10 +26,33 @@ pub struct Level {
     pub creases: Vec<[u32; 2]>,
     /// Corners.
     pub corners: Vec<u32>,
+    /// What the interior follows.
+    pub interior: Interior,
 }
 
 impl Level {
-    /// The solid as it stands in its file, with its boundary found.
+    /// The solid as it stands in its file, with its boundary found, for a scheme. Box splines
+    /// take the diagonals that are given, or choose them.
+    pub fn of_scheme(
+        mesh: &SolidMesh,
+        scheme: Scheme,
+        diagonals: Option<&DiagonalLists>,
+    ) -> Result<Self> {
+        let mut level = Self::new(mesh)?;
+        level.interior = Interior::new(scheme, &level.solid(), diagonals)?;
+        Ok(level)
+    }
+
+    /// The faces at which major diagonals clash, by their corners; none where there are no
+    /// diagonals.
+    pub fn improper_faces(&self) -> Result<Vec<[u32; 3]>> {
+        match &self.interior {
+            Interior::BoxSpline(diagonals) => diagonals.improper(&self.solid()),
+            Interior::TetOct | Interior::BoxSplineAveraged => Ok(Vec::new()),
+        }
+    }
+
+    /// The solid as it stands in its file, with its boundary found, for the scheme tet-oct.
     pub fn new(mesh: &SolidMesh) -> Result<Self> {
         let vertex_count = u32::try_from(mesh.points.len())
             .map_err(|_| Error::new("the mesh has more than 2^32 - 1 vertices"))?;
@@ -38,6 +62,7 @@ impl Level {
             surface: Vec::new(),
             creases: mesh.features.creases.clone(),
             corners: mesh.features.corners.clone(),
+            interior: Interior::TetOct,
         };
         let solid = level.solid();
         let faces = face_capacity(&solid).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
@@ -158,6 +183,12 @@ impl<'a> Refinement<'a> {
             surface: vec![[0; 3]; counts.surface],
             creases: vec![[0; 2]; counts.creases],
             corners: vec![0; counts.corners],
+            interior: match &self.from.interior {
+                Interior::BoxSpline(diagonals) => {
+                    Interior::BoxSpline(diagonals.split(counts.tetrahedra, counts.octahedra)?)
+                }
+                same => same.clone(),
+            },
         };
         let buffers = SolidBuffers {
             tetrahedra: &mut next.cells.tetrahedra,
@@ -186,8 +217,29 @@ impl<'a> Refinement<'a> {
             sums: &mut vec![zero; length],
             states: &mut vec![VertexState::default(); length],
         };
-        refine_points(blend, &solid, &numbering, self.boundary, values, buffers)
-            .map_err(mesh_error)?;
+        let scheme = match &self.from.interior {
+            Interior::TetOct => {
+                refine_points(blend, &solid, &numbering, self.boundary, values, buffers)
+                    .map_err(mesh_error)?;
+                return Ok(out);
+            }
+            Interior::BoxSpline(diagonals) => box_spline::Scheme::MajorDiagonals(diagonals.view()),
+            Interior::BoxSplineAveraged => box_spline::Scheme::Averaged,
+        };
+        let needed =
+            neighbour_capacity(&solid, &scheme).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
+        let mut arena = vec![[0; 3]; needed];
+        let neighbours = Neighbours::new(&solid, scheme, &mut arena).map_err(mesh_error)?;
+        box_spline::refine_points(
+            blend,
+            &solid,
+            &numbering,
+            &neighbours,
+            self.boundary,
+            values,
+            buffers,
+        )
+        .map_err(mesh_error)?;
         Ok(out)
     }
 
@@ -206,7 +258,7 @@ impl<'a> Refinement<'a> {
 }
 
 /// Core's complaint about a mesh in the words of a file's user.
-fn mesh_error(error: MeshError) -> Error {
+pub(super) fn mesh_error(error: MeshError) -> Error {
     match error {
         MeshError::NotAnEdge {
             part: Part::Crease,
@@ -224,6 +276,13 @@ fn mesh_error(error: MeshError) -> Error {
             "{part} {index} (counted from 0) names vertex {vertex} twice"
         ))
         .advise("remove the degenerate cell"),
+        MeshError::DiagonalCount {
+            part,
+            needed,
+            given,
+        } => Error::new(format!(
+            "{given} major diagonals are given for cells of the kind {part}, of which there are {needed}"
+        )),
         MeshError::TooLarge => Error::new("the refined mesh needs more than 2^32 - 1 vertices")
             .advise("take fewer levels"),
         other => Error::new(other.to_string()),

@@ -4,10 +4,12 @@
 //! business alone. This module lends core the memory ([`Level`]) and brings the value types that
 //! only the host has: double precision ([`RealBlend`]) and sparse rows ([`rows`]).
 
+mod diagonals;
 mod level;
 mod real;
 pub mod rows;
 
+pub use diagonals::{DiagonalLists, Interior};
 pub use level::{Level, Refinement};
 pub use real::RealBlend;
 
@@ -63,4 +65,8 @@ pub enum Scheme {
     /// Smooth subdivision of tetrahedra and octahedra (Schaefer, Hakenberg, Warren)
     #[default]
     TetOct,
+    /// Box-spline solids with major diagonals (Chang, Qin)
+    BoxSpline,
+    /// Box-spline solids averaged over the three diagonals (Chang, Qin, appendix A)
+    BoxSplineAveraged,
 }

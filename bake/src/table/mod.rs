@@ -20,7 +20,7 @@ use crate::locate::{Embedding, Locator};
 use crate::mesh::{Point, SolidMesh};
 use crate::progress::Progress;
 use crate::refine::rows::{Row, RowBlend, compose, composition_error, identity};
-use crate::refine::{BoundaryRule, Level, Refinement, Scheme};
+use crate::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
 use format::{Format, MOST_FRACTION_BITS};
 use precision::Table;
 use quantise::{QuantisedRow, quantise};
@@ -44,6 +44,8 @@ pub enum Outside {
 pub struct Options {
     /// The scheme.
     pub scheme: Scheme,
+    /// Major diagonals of the cage's cells, for box splines; chosen if not given.
+    pub diagonals: Option<DiagonalLists>,
     /// What the boundary follows.
     pub boundary: BoundaryRule,
     /// How many times the cage is refined.
@@ -65,6 +67,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             scheme: Scheme::TetOct,
+            diagonals: None,
             boundary: BoundaryRule::Loop,
             levels: 2,
             fraction_bits: None,
@@ -222,7 +225,7 @@ impl Refined {
 }
 
 fn refine(cage: &SolidMesh, options: &Options, progress: &mut dyn Progress) -> Result<Refined> {
-    let mut level = Level::new(cage)?;
+    let mut level = Level::of_scheme(cage, options.scheme, options.diagonals.as_ref())?;
     level.require_levels(options.levels)?;
     let control_points = level.vertex_count;
     let (mut points, mut matrices) = (cage.points.clone(), Vec::new());

@@ -11,6 +11,10 @@ pub const VERSION: u32 = 0;
 
 /// [`Header::scheme`]: tetrahedra and octahedra.
 pub const SCHEME_TET_OCT: u32 = 1;
+/// [`Header::scheme`]: box-spline solids with major diagonals.
+pub const SCHEME_BOX_SPLINE: u32 = 2;
+/// [`Header::scheme`]: the averaged box-spline scheme.
+pub const SCHEME_BOX_SPLINE_AVERAGED: u32 = 3;
 
 /// [`Header::boundary`]: Loop's scheme with its weights of 1987.
 pub const BOUNDARY_LOOP: u32 = 1;

@@ -37,7 +37,7 @@ mod view;
 pub use error::BundleError;
 pub use header::{
     BOUNDARY_FIXED, BOUNDARY_INTERIOR, BOUNDARY_LOOP, BOUNDARY_LOOP_WARREN, BOUNDARY_TRI_QUAD,
-    Header, MAGIC, SCHEME_TET_OCT, VERSION,
+    Header, MAGIC, SCHEME_BOX_SPLINE, SCHEME_BOX_SPLINE_AVERAGED, SCHEME_TET_OCT, VERSION,
 };
 pub use layout::{ALIGNMENT, RESIDUAL_LIMIT, Sections, checksum, checksum_of};
 pub use view::Bundle;

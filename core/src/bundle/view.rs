@@ -5,7 +5,10 @@ use core::mem::size_of;
 use zerocopy::{FromBytes, Immutable, KnownLayout};
 
 use super::error::BundleError;
-use super::header::{BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, SCHEME_TET_OCT, VERSION};
+use super::header::{
+    BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, SCHEME_BOX_SPLINE_AVERAGED, SCHEME_TET_OCT,
+    VERSION,
+};
 use super::layout::{ALIGNMENT, RESIDUAL_LIMIT, Sections, checksum};
 use crate::blend::WEIGHT_BITS;
 use crate::coord::Coordinate;
@@ -209,7 +212,7 @@ fn check_header(header: &Header, bytes: &[u8]) -> Result<Sections, BundleError> 
     );
     let sections = sections.ok_or(BundleError::Header)?;
     let unit_is_text = core::str::from_utf8(&header.unit).is_ok();
-    let known = header.scheme.get() == SCHEME_TET_OCT
+    let known = (SCHEME_TET_OCT..=SCHEME_BOX_SPLINE_AVERAGED).contains(&header.scheme.get())
         && (BOUNDARY_LOOP..=BOUNDARY_FIXED).contains(&header.boundary.get())
         && header.fraction_bits.get() <= i32::BITS
         && header.reserved.iter().all(|&byte| byte == 0)
