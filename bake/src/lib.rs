@@ -10,6 +10,7 @@
 //! * [`locate`]: which refined cell holds a point, and the point's coordinates in it.
 //! * [`table`]: the weights of every model point on the control points, as integers, with a proved
 //!   bound of their error.
+//! * [`forms`]: the exact volume that a subdivision surface encloses, and its moments.
 //! * [`bundle`]: the bytes for the device's flash.
 //! * [`mod@deform`]: the device's own code applied on the host.
 //! * [`mod@write`], [`picture`]: files to look at.
@@ -22,6 +23,7 @@ pub mod bundle;
 pub mod check;
 pub mod deform;
 pub mod error;
+pub mod forms;
 pub mod geometry;
 pub mod inspect;
 pub mod locate;

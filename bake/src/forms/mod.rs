@@ -1,0 +1,28 @@
+//! The exact volume enclosed by a subdivision surface, from its control points alone.
+//!
+//! After Hakenberg, Reif, Schaefer and Warren, *Volume Enclosed by Subdivision Surfaces* (2014).
+//! The limit surface falls into *facets*, each determined by a few control points. The volume
+//! of the cone from the origin over a facet is an alternating trilinear form of them, a sum of
+//! determinants `c_ijk det(p_i, p_j, p_k)`; the cones of a closed surface add up to the volume
+//! that it encloses. The coefficients depend on the scheme and on the facet's valence only.
+//!
+//! * [`exact`]: the numbers, double precision or exact ones of Q(sqrt d).
+//! * [`mesh`]: the connectivity of closed surfaces.
+//! * [`scheme`]: refinement, facets and the order of their control points.
+//! * [`form`], [`make`]: forms and how they are found.
+
+pub mod error;
+pub mod exact;
+pub mod form;
+mod local;
+pub mod make;
+pub mod mesh;
+mod patch;
+mod polynomial;
+pub mod scheme;
+
+pub use error::FormError;
+pub use form::TrilinearForm;
+pub use local::MAX_VALENCE;
+pub use mesh::ClosedMesh;
+pub use scheme::Scheme;
