@@ -3,8 +3,8 @@
 
 use num_rational::BigRational;
 use octruss_bake::forms::exact::{Field, Quadratic};
-use octruss_bake::forms::make::{exact_form, real_form};
-use octruss_bake::forms::{Scheme, TrilinearForm};
+use octruss_bake::forms::make::{FORM_ERROR, exact_form, real_form};
+use octruss_bake::forms::{FormError, Scheme, TrilinearForm};
 
 fn rational(text: &str) -> BigRational {
     text.parse().expect("a fraction")
@@ -28,7 +28,11 @@ fn regular_coefficients_are_the_printed_ones() {
         (Scheme::Loop, [5, 1, 7], "1787/119750400"),
     ] {
         let form = exact_form(scheme, scheme.regular_valence()).expect("the regular form");
-        assert_eq!(coefficient(&form, indices) * &half, rational(want), "{scheme}");
+        assert_eq!(
+            coefficient(&form, indices) * &half,
+            rational(want),
+            "{scheme}"
+        );
     }
 }
 
@@ -56,25 +60,89 @@ fn irregular_coefficients_are_the_printed_ones() {
     ] {
         let form = exact_form(scheme, valence).expect("an exact form");
         let factor = rational(if halved { "1/2" } else { "1" });
-        assert_eq!(coefficient(&form, indices) * factor, rational(want), "{scheme}");
+        assert_eq!(
+            coefficient(&form, indices) * factor,
+            rational(want),
+            "{scheme}"
+        );
+    }
+}
+
+/// Double precision against exact forms, every valence whose weights are exact and cheap.
+#[test]
+fn double_precision_keeps_its_stated_error() {
+    for (scheme, valences) in [
+        (Scheme::DooSabin, &[3, 4, 5, 6, 8][..]),
+        (Scheme::CatmullClark, &[3, 4]),
+        (Scheme::Loop, &[3, 4, 5, 6, 8]),
+        (Scheme::LoopWarren, &[3, 4, 5, 6, 7]),
+    ] {
+        for &valence in valences {
+            let exact = exact_form(scheme, valence).expect("an exact form");
+            let real = real_form(scheme, valence).expect("a form");
+            assert_eq!(exact.size(), scheme.control_point_count(valence));
+            let pairs = exact.coefficients().iter().zip(real.coefficients());
+            let error = pairs.fold(0.0_f64, |most, (want, got)| {
+                most.max((want.to_f64() - got).abs())
+            });
+            let greatest = real
+                .coefficients()
+                .iter()
+                .fold(0.0_f64, |most, c| most.max(c.abs()));
+            assert!(
+                error <= FORM_ERROR * greatest,
+                "{scheme} {valence}: {error}"
+            );
+        }
+    }
+}
+
+/// Mirror images have the opposite form: with the sign that an alternating form brings.
+#[test]
+fn forms_have_the_mirror_symmetry_of_their_facet() {
+    // The paper's sigma at valence 5 for Loop: 3 2 1 7 6 5 4 10 9 8 11, counted from 1.
+    let mirror = [3, 2, 1, 7, 6, 5, 4, 10, 9, 8, 11].map(|index: usize| index - 1);
+    let form = exact_form(Scheme::Loop, 5).expect("an exact form");
+    for i in 0..11 {
+        for j in i + 1..11 {
+            for k in j + 1..11 {
+                let image = form.get(mirror[i], mirror[j], mirror[k]);
+                assert_eq!(form.get(i, j, k), image.negated());
+            }
+        }
+    }
+}
+
+/// Triples of control points that the irregular place does not touch have the regular
+/// coefficients (the paper's second remark on each scheme).
+#[test]
+fn outer_coefficients_are_regular() {
+    for scheme in [Scheme::DooSabin, Scheme::Loop] {
+        let regular = exact_form(scheme, scheme.regular_valence()).expect("the regular form");
+        let irregular = exact_form(scheme, 5).expect("an exact form");
+        let outer = scheme.outer_control_points();
+        for &i in outer {
+            for &j in outer {
+                for &k in outer {
+                    assert_eq!(regular.get(i, j, k), irregular.get(i, j, k), "{scheme}");
+                }
+            }
+        }
     }
 }
 
 #[test]
-fn t() {
+fn valences_up_to_64_have_a_form_and_others_are_refused() {
     for scheme in Scheme::ALL {
-        for valence in 3..=12 {
-            let start = std::time::Instant::now();
-            let exact = exact_form(scheme, valence);
-            let t = start.elapsed();
-            let start = std::time::Instant::now();
-            let real = real_form(scheme, valence).unwrap();
-            let u = start.elapsed();
-            let Ok(exact) = exact else { continue };
-            let big = real.coefficients().iter().fold(0.0f64, |g, v| g.max(v.abs()));
-            let err = exact.coefficients().iter().zip(real.coefficients()).map(|(a, b)| (a.to_f64() - b).abs()).fold(0.0, f64::max);
-            println!("{scheme} {valence} exact {t:?} real {u:?} relative error {:e}", err / big);
-            if scheme == Scheme::CatmullClark && valence > 6 { break; }
-        }
+        assert_eq!(real_form(scheme, 2), Err(FormError::Valence { valence: 2 }));
+        assert_eq!(
+            real_form(scheme, 65),
+            Err(FormError::Valence { valence: 65 })
+        );
     }
+    assert_eq!(real_form(Scheme::Loop, 64).map(|form| form.size()), Ok(70));
+    assert_eq!(
+        exact_form(Scheme::Loop, 7),
+        Err(FormError::NotExact { valence: 7 })
+    );
 }

@@ -106,7 +106,10 @@ impl fmt::Display for FormError {
                  the mesh or choose a scheme for polygons"
             ),
             Self::Points { vertices, given } => {
-                write!(f, "the mesh has {vertices} vertices, but {given} points were given")
+                write!(
+                    f,
+                    "the mesh has {vertices} vertices, but {given} points were given"
+                )
             }
             Self::NotExact { valence } => write!(
                 f,
@@ -114,7 +117,10 @@ impl fmt::Display for FormError {
                  others; use double precision"
             ),
             Self::Valence { valence } => {
-                write!(f, "there is no form of valence {valence}: it must be at least 3")
+                write!(
+                    f,
+                    "there is no form of valence {valence}: it must be at least 3"
+                )
             }
             Self::Target { reached } => write!(
                 f,

@@ -25,9 +25,8 @@ fn place(size: usize, i: usize, j: usize, k: usize) -> usize {
 
 /// All triples `i < j < k` below `size`, ascending.
 pub(crate) fn triples(size: usize) -> impl Iterator<Item = [usize; 3]> {
-    (0..size).flat_map(move |i| {
-        (i + 1..size).flat_map(move |j| (j + 1..size).map(move |k| [i, j, k]))
-    })
+    (0..size)
+        .flat_map(move |i| (i + 1..size).flat_map(move |j| (j + 1..size).map(move |k| [i, j, k])))
 }
 
 /// A dense tensor of three indices.

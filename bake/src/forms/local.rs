@@ -27,7 +27,10 @@ pub(crate) fn children<F: Field>(scheme: Scheme, valence: usize) -> Result<Child
             let row = scheme.row::<F>(&mesh, vertex)?;
             let local = row.into_iter().map(|(vertex, weight)| {
                 let place = own.iter().position(|&point| point == vertex);
-                (place.expect("a facet's control points determine its children"), weight)
+                (
+                    place.expect("a facet's control points determine its children"),
+                    weight,
+                )
             });
             let mut local = local.collect::<Vec<_>>();
             local.sort_unstable_by_key(|entry| entry.0);

@@ -30,7 +30,8 @@ pub fn exact_form(scheme: Scheme, valence: usize) -> Result<TrilinearForm<Quadra
     let children = local::children::<Quadratic>(scheme, valence)?;
     let size = scheme.control_point_count(valence);
     let added = from_regular_children(&regular, &children, size);
-    let system = System::new(scheme, &children[3], radicand).ok_or(FormError::NotExact { valence })?;
+    let system =
+        System::new(scheme, &children[3], radicand).ok_or(FormError::NotExact { valence })?;
     let mut form = TrilinearForm::zero(size);
     for inner in 0..=3 {
         // Triples with fewer control points of the irregular place are known by now and do not
@@ -176,7 +177,10 @@ impl System {
         };
         let matrix = unknown.iter().map(row).collect::<Vec<Vec<_>>>();
         let cube = Quadratic::from(num_rational::BigRational::from(cube));
-        let right = right.iter().map(|value| value.times(&cube)).collect::<Vec<_>>();
+        let right = right
+            .iter()
+            .map(|value| value.times(&cube))
+            .collect::<Vec<_>>();
         solve(&matrix, &right, self.radicand)
     }
 

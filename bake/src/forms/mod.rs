@@ -9,20 +9,28 @@
 //! * [`exact`]: the numbers, double precision or exact ones of Q(sqrt d).
 //! * [`mesh`]: the connectivity of closed surfaces.
 //! * [`scheme`]: refinement, facets and the order of their control points.
-//! * [`form`], [`make`]: forms and how they are found.
+//! * [`form`], [`make`], [`cache`]: forms, how they are found, and where they are kept.
+//! * [`surface`], [`moments`], [`target`]: the volume of a whole mesh and its gradient, centroid and
+//!   inertia, and the nearest mesh that encloses a given volume.
 
+pub mod cache;
 pub mod error;
 pub mod exact;
 pub mod form;
 mod local;
 pub mod make;
 pub mod mesh;
+pub mod moments;
 mod patch;
 mod polynomial;
 pub mod scheme;
+pub mod surface;
+pub mod target;
 
 pub use error::FormError;
 pub use form::TrilinearForm;
 pub use local::MAX_VALENCE;
 pub use mesh::ClosedMesh;
+pub use moments::Moments;
 pub use scheme::Scheme;
+pub use surface::LimitSurface;

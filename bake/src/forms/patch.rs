@@ -24,11 +24,14 @@ pub(crate) struct Patch {
 impl Patch {
     pub(crate) fn new(scheme: Scheme) -> Self {
         match scheme {
-            Scheme::DooSabin => {
-                Self::tensor(&[&[1, -2, 1], &[1, 2, -2], &[0, 0, 1]], 2)
-            }
+            Scheme::DooSabin => Self::tensor(&[&[1, -2, 1], &[1, 2, -2], &[0, 0, 1]], 2),
             Scheme::CatmullClark => Self::tensor(
-                &[&[1, -3, 3, -1], &[4, 0, -6, 3], &[1, 3, 3, -3], &[0, 0, 0, 1]],
+                &[
+                    &[1, -3, 3, -1],
+                    &[4, 0, -6, 3],
+                    &[1, 3, 3, -3],
+                    &[0, 0, 0, 1],
+                ],
                 6,
             ),
             Scheme::Loop | Scheme::LoopWarren => Self::box_spline(),
@@ -70,7 +73,10 @@ impl Patch {
             .iter()
             .fold(denominator, |common, member| member.common_divisor(common));
         Self {
-            basis: basis.iter().map(|member| member.divided_by(common)).collect(),
+            basis: basis
+                .iter()
+                .map(|member| member.divided_by(common))
+                .collect(),
             denominator: denominator / common,
             domain: Domain::Triangle,
         }
@@ -158,11 +164,7 @@ fn refinement_mask() -> HashMap<(i32, i32), i128> {
 /// 24 times the quartic that is 1 at `(i/4, j/4)` and 0 at the other quarters of the triangle.
 fn quartic_through(i: i32, j: i32) -> Polynomial {
     let [i, j] = [i, j].map(i128::from);
-    let coordinates = [
-        (i, [0, 4, 0]),
-        (j, [0, 0, 4]),
-        (4 - i - j, [4, -4, -4]),
-    ];
+    let coordinates = [(i, [0, 4, 0]), (j, [0, 0, 4]), (4 - i - j, [4, -4, -4])];
     let mut product = Polynomial::constant(24);
     for (count, [constant, in_s, in_t]) in coordinates {
         for factor in 0..count {

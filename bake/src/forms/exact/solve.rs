@@ -36,7 +36,11 @@ pub(crate) fn solve(
     if radicand == 1 {
         let rows = matrix
             .iter()
-            .map(|row| row.iter().map(|(column, entry)| (*column, entry.rational)).collect())
+            .map(|row| {
+                row.iter()
+                    .map(|(column, entry)| (*column, entry.rational))
+                    .collect()
+            })
             .collect::<Vec<Vec<_>>>();
         let solution = solve_rational(&rows, &rational.collect::<Vec<_>>())?;
         return Some(solution.into_iter().map(Quadratic::from).collect());

@@ -20,9 +20,14 @@ pub(super) fn refine(mesh: &ClosedMesh) -> (usize, Vec<Vec<u32>>) {
     let faces = (0..mesh.half_edges())
         .map(|corner| {
             let before = mesh.previous(corner);
-            [mesh.origin(corner), edge(corner), centre(corner), edge(before)]
-                .map(name)
-                .to_vec()
+            [
+                mesh.origin(corner),
+                edge(corner),
+                centre(corner),
+                edge(before),
+            ]
+            .map(name)
+            .to_vec()
         })
         .collect();
     (mesh.vertices() + mesh.edges() + mesh.faces(), faces)

@@ -16,7 +16,11 @@ pub(super) fn refine(mesh: &ClosedMesh) -> (usize, Vec<Vec<u32>>) {
     for edge in 0..mesh.edges() {
         let side = mesh.edge_side(edge);
         let twin = mesh.twin(side);
-        faces.push([mesh.next(side), side, mesh.next(twin), twin].map(name).to_vec());
+        faces.push(
+            [mesh.next(side), side, mesh.next(twin), twin]
+                .map(name)
+                .to_vec(),
+        );
     }
     for vertex in 0..mesh.vertices() {
         faces.push(mesh.around(vertex).into_iter().map(name).collect());

@@ -15,8 +15,8 @@ mod triangles;
 
 use std::fmt;
 
-pub(crate) use row::apply;
 pub use row::Row;
+pub(crate) use row::apply;
 
 use super::error::FormError;
 use super::exact::Field;
@@ -128,6 +128,41 @@ impl Scheme {
             Self::Loop => triangles::row(mesh, vertex, triangles::loop_weight),
             Self::LoopWarren => triangles::row(mesh, vertex, triangles::warren_weight),
         }
+    }
+
+    /// The valences (numbers of corners, for Doo-Sabin) that the weights of a step depend on.
+    #[must_use]
+    pub fn weight_valences(self, mesh: &ClosedMesh) -> Vec<usize> {
+        match self {
+            Self::DooSabin => (0..mesh.faces())
+                .map(|face| mesh.face(face).len())
+                .collect(),
+            _ => (0..mesh.vertices())
+                .map(|vertex| mesh.valence(vertex))
+                .collect(),
+        }
+    }
+
+    /// The weights of every vertex of the refined mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`FormError::NotExact`] if they do not lie in the field.
+    pub fn rows<F: Field>(
+        self,
+        mesh: &ClosedMesh,
+        refined: &ClosedMesh,
+    ) -> Result<Vec<Row<F>>, FormError> {
+        let row = |vertex| {
+            let valence = match self {
+                Self::DooSabin => mesh.sides(vertex),
+                _ if vertex < mesh.vertices() => mesh.valence(vertex),
+                _ => 0,
+            };
+            self.row(mesh, vertex)
+                .ok_or(FormError::NotExact { valence })
+        };
+        (0..refined.vertices()).map(row).collect()
     }
 
     /// The facets of a mesh that was refined [`Scheme::steps`] times, each by a half-edge at its

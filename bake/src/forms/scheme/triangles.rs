@@ -21,9 +21,13 @@ pub(super) fn refine(mesh: &ClosedMesh) -> (usize, Vec<Vec<u32>>) {
     for face in 0..mesh.faces() {
         let first = mesh.face(face).start;
         let [a, b, c] = [0, 1, 2].map(|corner| name(mesh.origin(first + corner)));
-        let [ab, bc, ca] =
-            [0, 1, 2].map(|side| name(mesh.vertices() + mesh.edge_of(first + side)));
-        faces.extend([vec![a, ab, ca], vec![ab, b, bc], vec![ca, bc, c], vec![ab, bc, ca]]);
+        let [ab, bc, ca] = [0, 1, 2].map(|side| name(mesh.vertices() + mesh.edge_of(first + side)));
+        faces.extend([
+            vec![a, ab, ca],
+            vec![ab, b, bc],
+            vec![ca, bc, c],
+            vec![ab, bc, ca],
+        ]);
     }
     (mesh.vertices() + mesh.edges(), faces)
 }
@@ -38,7 +42,10 @@ pub(super) fn row<F: Field>(
         let around = mesh.around(vertex);
         let valence = u32::try_from(around.len()).ok()?;
         let weight = weight(valence)?;
-        row.add(vertex, &F::one().minus(&weight.scaled(i64::from(valence), 1)));
+        row.add(
+            vertex,
+            &F::one().minus(&weight.scaled(i64::from(valence), 1)),
+        );
         for half_edge in around {
             row.add(mesh.end(half_edge), &weight);
         }
@@ -106,5 +113,10 @@ pub(super) fn children(mesh: &ClosedMesh, facet: HalfEdge) -> [HalfEdge; 4] {
     let corner = facet - mesh.face(face).start;
     let [one, two] = [(corner + 1) % 3, (corner + 2) % 3];
     let half_edge = |child: usize, place: usize| 3 * (4 * face + child) + place;
-    [half_edge(one, one), half_edge(two, two), half_edge(3, 0), half_edge(corner, corner)]
+    [
+        half_edge(one, one),
+        half_edge(two, two),
+        half_edge(3, 0),
+        half_edge(corner, corner),
+    ]
 }
