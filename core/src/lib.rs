@@ -18,7 +18,8 @@
 //!   vertices), [`surface`] (weights of surface schemes) and [`solid`] (subdivision of solids:
 //!   [`solid::tet_oct`], [`solid::box_spline`]).
 //! * **Right wing, run**: [`bundle`] (a validated view of the baked bytes in flash) and
-//!   [`deform`] (the table and its apply kernel).
+//!   [`deform`] (the table and its apply kernel), and [`enclosed`] (the volume inside a smooth
+//!   boundary, and its gradient).
 //!
 //! All logic works on slices and views that the caller owns. Types with const generics, built on
 //! `heapless`, exist for convenience only: [`mesh::SolidArena`], [`solid::tet_oct::Scratch`].
@@ -44,6 +45,7 @@ pub mod blend;
 pub mod bundle;
 pub mod coord;
 pub mod deform;
+pub mod enclosed;
 pub mod mesh;
 pub mod solid;
 pub mod surface;
