@@ -15,6 +15,8 @@
 //! - [`reference_surface`] is the surface schemes written again, in double precision that is exact
 //!   by construction; [`random_surface`] draws control meshes from a seed, and
 //!   [`surface_subject`] and [`surface_rows`] drive the crate under test on them.
+//! - [`reference_volume`] is the enclosed volume written again, in integers of any length;
+//!   [`random_volume`] draws its forms and poses.
 
 pub mod box_spline;
 pub mod box_spline_cases;
@@ -27,10 +29,12 @@ pub mod meshes;
 pub mod random_mesh;
 pub mod random_surface;
 pub mod random_table;
+pub mod random_volume;
 pub mod rational;
 pub mod reference;
 pub mod reference_box_spline;
 pub mod reference_surface;
+pub mod reference_volume;
 pub mod snapshot;
 pub mod spectrum;
 pub mod subject;

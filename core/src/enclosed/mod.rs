@@ -20,7 +20,7 @@
 //!
 //! 1. A difference to the base has 33 bits. It is rounded by `2^difference_shift`, at least 4, to
 //!    at most `2^30` in magnitude.
-//! 2. All differences of the pose are then doubled, exactly, as often as the greatest stays within
+//! 2. All differences of the pose are then doubled, exactly, as often as the greatest stays below
 //!    `2^30`: `n` times. So a small region has as many digits as a large one.
 //! 3. The volume is the exact sum of all `weight * det`, divided by `2^(3n)` (exactly) and by
 //!    `2^volume_shift` with one rounding.
