@@ -59,6 +59,11 @@ pub enum FormError {
         /// The valence.
         valence: usize,
     },
+    /// The volume depends on more control points than a form is made over.
+    TooManyPoints {
+        /// How many.
+        points: usize,
+    },
     /// No control mesh near this one encloses the volume.
     Target {
         /// The volume of the best attempt, as text.
@@ -122,6 +127,11 @@ impl fmt::Display for FormError {
                     "there is no form of valence {valence}: it must be at least 3"
                 )
             }
+            Self::TooManyPoints { points } => write!(
+                f,
+                "the volume depends on {points} control points, too many for one form; use a \
+                 coarser cage"
+            ),
             Self::Target { reached } => write!(
                 f,
                 "no control mesh near this one encloses that volume; the nearest attempt \

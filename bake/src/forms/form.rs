@@ -101,6 +101,12 @@ impl<F: Field> TrilinearForm<F> {
         self.coefficients[place(self.size, i, j, k)] = value;
     }
 
+    /// Adds to the coefficient of `i < j < k`.
+    pub(crate) fn add_to(&mut self, [i, j, k]: [usize; 3], value: F) {
+        let sum = &mut self.coefficients[place(self.size, i, j, k)];
+        *sum = sum.plus(&value);
+    }
+
     /// The same form in another field.
     pub fn map<G>(&self, convert: impl Fn(&F) -> G) -> TrilinearForm<G> {
         TrilinearForm {

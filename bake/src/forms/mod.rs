@@ -12,8 +12,11 @@
 //! * [`form`], [`make`], [`cache`]: forms, how they are found, and where they are kept.
 //! * [`surface`], [`moments`], [`target`]: the volume of a whole mesh and its gradient, centroid and
 //!   inertia, and the nearest mesh that encloses a given volume.
+//! * [`control`], [`device`]: the volume as one form over the control points, and in integers.
 
 pub mod cache;
+pub mod control;
+pub mod device;
 pub mod error;
 pub mod exact;
 pub mod form;
@@ -27,6 +30,8 @@ pub mod scheme;
 pub mod surface;
 pub mod target;
 
+pub use control::ControlForm;
+pub use device::DeviceForm;
 pub use error::FormError;
 pub use form::TrilinearForm;
 pub use local::MAX_VALENCE;

@@ -1,6 +1,7 @@
 //! The limit surface of a control mesh, cut into facets.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 use super::cache::FormField;
@@ -60,8 +61,8 @@ impl<F: FormField> LimitSurface<F> {
         F::require(scheme, &valences)?;
         let mut forms = BTreeMap::new();
         for facet in &facets {
-            if !forms.contains_key(&facet.valence) {
-                forms.insert(facet.valence, F::form(scheme, facet.valence)?);
+            if let Entry::Vacant(entry) = forms.entry(facet.valence) {
+                entry.insert(F::form(scheme, facet.valence)?);
             }
         }
         Ok(Self {

@@ -16,7 +16,7 @@ mod triangles;
 use std::fmt;
 
 pub use row::Row;
-pub(crate) use row::apply;
+pub(crate) use row::{RowBuilder, apply};
 
 use super::error::FormError;
 use super::exact::Field;
