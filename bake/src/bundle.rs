@@ -5,10 +5,10 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::{Cells, Point};
+use crate::pack::writer::{self, Section};
 use crate::refine::{BoundaryRule, Scheme};
 use crate::table::format::Format;
-use crate::table::quantise::{ONE, QuantisedRow};
-use octruss::bundle::{self, Bundle, Header, RESIDUAL_LIMIT, Sections};
+use octruss::bundle::{self, Bundle, Header};
 use std::path::Path;
 use zerocopy::IntoBytes;
 
@@ -27,12 +27,12 @@ pub struct Contents<'a> {
     pub boundary: BoundaryRule,
     /// How many times the cage was refined.
     pub levels: u32,
-    /// Bits of the cage at rest.
-    pub rest_cage: &'a [[i32; 3]],
-    /// Bits of the model at rest, a point for each row.
-    pub rest_model: &'a [[i32; 3]],
-    /// The table.
-    pub rows: &'a [QuantisedRow],
+    /// Control points of the cage.
+    pub control_points: usize,
+    /// Points of the model.
+    pub rows: usize,
+    /// The sections.
+    pub sections: &'a [Section],
     /// See [`cage_checksum`].
     pub cage_checksum: u32,
     /// See [`model_checksum`].
@@ -67,55 +67,13 @@ pub fn model_checksum(points: &[Point]) -> u32 {
 /// The bytes of a bundle.
 ///
 /// # Errors
-/// If a count does not fit, or a point moved so far from its rest position that its residual does
-/// not.
+/// If it would be longer than 4 GiB.
 pub fn write(contents: &Contents<'_>) -> Result<Vec<u8>> {
-    let taps: usize = contents.rows.iter().map(|row| row.taps.len()).sum();
-    let sections = Sections::new(contents.rest_cage.len(), contents.rows.len(), taps)
-        .filter(|sections| u32::try_from(sections.total).is_ok())
-        .ok_or_else(|| Error::new("the table does not fit into 4 GiB"))?;
-    let mut bytes = vec![0; sections.total];
-    let header = header(contents, taps, sections.total);
-    bytes[..size_of::<Header>()].copy_from_slice(header.as_bytes());
-    let residuals = residuals(contents)?;
-    fill(
-        &mut bytes[sections.residuals],
-        residuals.into_iter().flatten().map(i64::to_le_bytes),
-    );
-    fill(
-        &mut bytes[sections.rest_cage],
-        contents.rest_cage.iter().flatten().map(|c| c.to_le_bytes()),
-    );
-    let ends = contents.rows.iter().scan(0_u32, |end, row| {
-        *end += row.taps.len() as u32;
-        Some(*end)
-    });
-    fill(
-        &mut bytes[sections.row_starts],
-        std::iter::once(0).chain(ends).map(u32::to_le_bytes),
-    );
-    let all_taps = || contents.rows.iter().flat_map(|row| &row.taps);
-    fill(
-        &mut bytes[sections.weights],
-        all_taps().map(|(_, weight)| weight.to_le_bytes()),
-    );
-    fill(
-        &mut bytes[sections.indices],
-        all_taps().map(|(point, _)| (*point as u16).to_le_bytes()),
-    );
-    let checksum = bundle::checksum(&bytes).to_le_bytes();
-    bytes[std::mem::offset_of!(Header, checksum)..][..checksum.len()].copy_from_slice(&checksum);
-    Ok(bytes)
+    writer::bundle(header(contents), contents.sections)
+        .ok_or_else(|| Error::new("the table does not fit into 4 GiB"))
 }
 
-fn fill<const N: usize>(section: &mut [u8], numbers: impl Iterator<Item = [u8; N]>) {
-    let (places, _) = section.as_chunks_mut::<N>();
-    for (place, number) in places.iter_mut().zip(numbers) {
-        *place = number;
-    }
-}
-
-fn header(contents: &Contents<'_>, taps: usize, total: usize) -> Header {
+fn header(contents: &Contents<'_>) -> Header {
     let mut unit = [0; LONGEST_UNIT];
     for (place, byte) in unit.iter_mut().zip(contents.unit.bytes()) {
         *place = byte;
@@ -128,51 +86,21 @@ fn header(contents: &Contents<'_>, taps: usize, total: usize) -> Header {
     Header {
         magic: bundle::MAGIC,
         version: bundle::VERSION.into(),
-        total_bytes: (total as u32).into(),
+        // The writer knows these.
+        total_bytes: 0.into(),
         checksum: 0.into(),
+        sections: 0.into(),
         fraction_bits: contents.format.fraction_bits.into(),
         unit,
         scheme: scheme.into(),
         boundary: contents.boundary.code().into(),
         levels: contents.levels.into(),
-        control_points: (contents.rest_cage.len() as u32).into(),
-        rows: (contents.rows.len() as u32).into(),
-        taps: (taps as u32).into(),
+        control_points: (contents.control_points as u32).into(),
+        rows: (contents.rows as u32).into(),
         cage_checksum: contents.cage_checksum.into(),
         model_checksum: contents.model_checksum.into(),
         reserved: [0; 56],
     }
-}
-
-/// What the displacement form starts its sums from: the rest position less what the weights make
-/// of the rest cage, in units of 2^-30.
-fn residuals(contents: &Contents<'_>) -> Result<Vec<[i64; 3]>> {
-    let residual = |(index, (rest, row)): (usize, (&[i32; 3], &QuantisedRow))| {
-        let of_axis: [i64; 3] = std::array::from_fn(|axis| {
-            let weighted = |(point, weight): &(u32, i32)| {
-                i64::from(*weight) * i64::from(contents.rest_cage[*point as usize][axis])
-            };
-            // At most 2^61 and 2^62: the difference fits.
-            i64::from(rest[axis]) * ONE - row.taps.iter().map(weighted).sum::<i64>()
-        });
-        if of_axis
-            .iter()
-            .all(|residual| residual.unsigned_abs() <= RESIDUAL_LIMIT.unsigned_abs())
-        {
-            return Ok(of_axis);
-        }
-        Err(Error::new(format!(
-            "point {index} (counted from 0) lies more than half the coordinates' range from the place that the cage gives it"
-        ))
-        .advise("bake with fewer --fraction-bits, or move the point into the cage"))
-    };
-    contents
-        .rest_model
-        .iter()
-        .zip(contents.rows)
-        .enumerate()
-        .map(residual)
-        .collect()
 }
 
 /// A bundle's bytes at the alignment that core asks for.

@@ -6,6 +6,7 @@ use crate::mesh::{Point, SolidMesh};
 use crate::read::obj::Model;
 use crate::table::format::Format;
 use octruss::bundle::Bundle;
+use octruss::deform::{CompactTable, Displacement, Table};
 use std::io::Write;
 
 /// Which of the table's two forms is applied.
@@ -21,7 +22,7 @@ pub enum Form {
 /// A deformed model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deformed {
-    /// The device's bits, a point for each row.
+    /// The device's bits, a point for each vertex of the model.
     pub bits: Vec<[i32; 3]>,
     /// How many coordinates did not fit and were clamped to the end of their range.
     pub saturated: u32,
@@ -37,17 +38,76 @@ pub fn format_of(bundle: &Bundle<'_>) -> Format {
 /// Applies the table to a pose in raw bits, a point for each control point.
 ///
 /// # Errors
-/// If the pose has another number of points than the bundle's cage.
+/// If the pose has another number of points than the bundle's cage, or the absolute form of a table for
+/// 16-bit displacements is asked for, which has none.
 pub fn deform(bundle: &Bundle<'_>, pose: &[[i32; 3]], form: Form) -> Result<Deformed> {
-    let failed = |error: &dyn std::error::Error| Error::new(error.to_string());
+    let rows = deform_rows(bundle, pose, form)?;
+    let mut bits = vec![[0; 3]; rows.bits.len()];
+    for (row, point) in bundle.model_points().iter().enumerate() {
+        bits[point] = rows.bits[row];
+    }
+    Ok(Deformed { bits, ..rows })
+}
+
+/// As [`deform`], with the points in the order of the table's rows, as a device computes them.
+///
+/// # Errors
+/// Those of [`deform`].
+pub fn deform_rows(bundle: &Bundle<'_>, pose: &[[i32; 3]], form: Form) -> Result<Deformed> {
     // Raw bits fit every format.
-    let table = bundle.table::<i32>().map_err(|error| failed(&error))?;
+    if let Ok(table) = bundle.table::<i32>() {
+        return wide(&table, pose, form);
+    }
+    if let Ok([first, second]) = bundle.factored_table::<i32>() {
+        let refined = wide(&first, pose, form)?;
+        return wide(&second, &refined.bits, form).map(|deformed| deformed.and(&refined));
+    }
+    if form == Form::Absolute {
+        return Err(Error::new(
+            "a table for 16-bit displacements has no absolute form",
+        ));
+    }
+    if let Ok([first, second]) = bundle.compact_factored_table::<i32>() {
+        let refined = compact(&first, pose)?;
+        return compact(&second, &refined.bits).map(|deformed| deformed.and(&refined));
+    }
+    let table = bundle
+        .compact_table::<i32>()
+        .map_err(|error| failed(&error))?;
+    compact(&table, pose)
+}
+
+impl Deformed {
+    fn and(self, before: &Self) -> Self {
+        let saturated = self.saturated.saturating_add(before.saturated);
+        Self { saturated, ..self }
+    }
+}
+
+fn failed(error: &dyn std::error::Error) -> Error {
+    Error::new(error.to_string())
+}
+
+fn wide(table: &Table<'_, i32>, pose: &[[i32; 3]], form: Form) -> Result<Deformed> {
     let mut bits = vec![[0; 3]; table.rows()];
     let applied = match form {
         Form::Displacement => table.apply(0..table.rows(), pose, &mut bits),
         Form::Absolute => table.apply_absolute(0..table.rows(), pose, &mut bits),
     };
     let saturated = applied.map_err(|error| failed(&error))?;
+    Ok(Deformed { bits, saturated })
+}
+
+fn compact(table: &CompactTable<'_, i32>, pose: &[[i32; 3]]) -> Result<Deformed> {
+    let mut memory = vec![Displacement::default(); table.control_points()];
+    let displacements = table
+        .displacements(pose, &mut memory)
+        .map_err(|error| failed(&error))?;
+    let mut bits = vec![[0; 3]; table.rows()];
+    let saturated = table
+        .apply(0..table.rows(), &displacements, &mut bits)
+        .map_err(|error| failed(&error))?;
+    let saturated = saturated.saturating_add(displacements.saturated());
     Ok(Deformed { bits, saturated })
 }
 

@@ -10,6 +10,7 @@
 //! * [`locate`]: which refined cell holds a point, and the point's coordinates in it.
 //! * [`table`]: the weights of every model point on the control points, as integers, with a proved
 //!   bound of their error.
+//! * [`pack`]: rows in groups, in the order in which the kernels read them.
 //! * [`forms`]: the exact volume that a subdivision surface encloses, and its moments.
 //! * [`bundle`]: the bytes for the device's flash.
 //! * [`mod@deform`]: the device's own code applied on the host.
@@ -28,6 +29,7 @@ pub mod geometry;
 pub mod inspect;
 pub mod locate;
 pub mod mesh;
+pub mod pack;
 pub mod picture;
 pub mod progress;
 pub mod read;

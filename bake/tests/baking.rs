@@ -11,7 +11,7 @@ use octruss_bake::mesh::{Cells, Point, SolidMesh};
 use octruss_bake::progress::Silent;
 use octruss_bake::read;
 use octruss_bake::refine::{BoundaryRule, Level, Refinement};
-use octruss_bake::table::{Baked, Input, Options, Outside, bake};
+use octruss_bake::table::{Baked, Input, Options, Outside, TableFormat, bake};
 use std::path::Path;
 
 /// A tetrahedron whose refined vertices have integer coordinates: 288 and 96 divide everything.
@@ -160,11 +160,12 @@ fn rows_at_refined_vertices_are_the_masks() {
         let baked = bake_points(&tetrahedron(), &masks.points(), &options).unwrap();
         let bytes = BundleBytes::new(&baked.bundle);
         let bundle = bytes.open().unwrap();
-        for (row, expected) in masks.rows().iter().enumerate() {
-            let taps = bundle.row_starts()[row] as usize..bundle.row_starts()[row + 1] as usize;
+        let table = bundle.table::<i32>().unwrap();
+        for (row, point) in bundle.model_points().iter().enumerate() {
+            let expected = masks.rows()[point];
             let mut weights = [0_i64; 4];
-            for tap in taps {
-                weights[usize::from(bundle.indices()[tap])] = bundle.weights()[tap].into();
+            for (control_point, weight) in table.row(row).unwrap() {
+                weights[control_point] = weight.into();
             }
             for (weight, expected) in weights.iter().zip(expected) {
                 // Nearest, or one unit beside it where the row had to sum to one; the last places
@@ -194,11 +195,11 @@ fn without_levels_the_weights_are_affine_coordinates() {
     let bytes = BundleBytes::new(&baked.bundle);
     let bundle = bytes.open().unwrap();
     // A quarter of each of the three far corners and of the origin.
-    assert_eq!(
-        (bundle.indices(), bundle.weights()),
-        (&[0, 1, 2, 3][..], &[1 << 28; 4][..])
-    );
-    assert_eq!(bundle.residuals(), [[0; 3]]);
+    let table = bundle.table::<i32>().unwrap();
+    let taps: Vec<(usize, i32)> = table.row(0).unwrap().collect();
+    assert_eq!(taps, [0, 1, 2, 3].map(|point| (point, 1 << 28)));
+    // No residual; the half of the rounding rule.
+    assert_eq!(table.start(0), Some([1 << 29; 3]));
     assert_eq!(bundle.rest_cage()[3], [0, 0, 864 << 8]);
     assert_eq!(
         (bundle.unit(), bundle.header().fraction_bits.get()),
@@ -395,27 +396,20 @@ fn report_counts_what_the_bundle_holds() {
         (report.rows, report.control_points, report.cells),
         (5522, 72, 168)
     );
+    let table = bundle.table::<i32>().unwrap();
+    let rows: Vec<Vec<i32>> = (0..table.rows())
+        .map(|row| table.row(row).unwrap().map(|(_, weight)| weight).collect())
+        .collect();
+    let taps: usize = rows.iter().map(Vec::len).sum();
     assert_eq!(
         (report.taps.total, report.bytes),
-        (bundle.weights().len(), baked.bundle.len())
+        (taps, baked.bundle.len())
     );
-    let longest = bundle
-        .row_starts()
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .max();
-    assert_eq!(longest, Some(report.taps.longest as u32));
+    assert_eq!(rows.iter().map(Vec::len).max(), Some(report.taps.longest));
     let one = f64::from(1 << 30);
-    let least = bundle
-        .weights()
-        .iter()
-        .min()
-        .map(|weight| f64::from(*weight) / one);
-    let greatest = bundle
-        .weights()
-        .iter()
-        .max()
-        .map(|weight| f64::from(*weight) / one);
+    let real = |weight: &i32| f64::from(*weight) / one;
+    let least = rows.iter().flatten().min().map(real);
+    let greatest = rows.iter().flatten().max().map(real);
     assert_eq!(
         (least, greatest),
         (Some(report.weights.least), Some(report.weights.greatest))
@@ -622,4 +616,78 @@ fn formats_that_do_not_fit_are_refused() {
         ..Options::default()
     };
     assert!(bake_points(&tetrahedron(), &points, &options).is_err());
+}
+
+/// Every format of the finger: errors proved and measured, opened by the call that its name promises, the
+/// rest model at rest to the bit.
+#[test]
+fn every_format_is_within_its_proved_error() {
+    use clap::ValueEnum as _;
+    let (cage, points) = finger();
+    let points = &points[..500];
+    let exact = bake_points(&cage, points, &Options::default()).unwrap();
+    for format in TableFormat::value_variants() {
+        let mut options = Options::default();
+        options.request.format = Some(*format);
+        let baked = bake_points(&cage, points, &options).unwrap();
+        let [report] = baked.report.formats[..] else {
+            panic!("one format was asked for");
+        };
+        assert_eq!(report.format, *format);
+        assert!(
+            report.measured <= report.proved,
+            "{format:?}: {} measured, {} proved",
+            report.measured,
+            report.proved
+        );
+        let bytes = BundleBytes::new(&baked.bundle);
+        let bundle = bytes.open().unwrap();
+        let rest = deform(&bundle, bundle.rest_cage(), Form::Displacement).unwrap();
+        let other = BundleBytes::new(&exact.bundle);
+        let other = other.open().unwrap();
+        let expected = deform(&other, other.rest_cage(), Form::Displacement).unwrap();
+        assert_eq!(rest, expected, "{format:?}");
+        let opens = [
+            bundle.table::<i32>().is_ok(),
+            bundle.compact_table::<i32>().is_ok(),
+            bundle.factored_table::<i32>().is_ok(),
+            bundle.compact_factored_table::<i32>().is_ok(),
+        ];
+        let number = match format {
+            TableFormat::Q30 | TableFormat::Q14 => 0,
+            TableFormat::Compact => 1,
+            TableFormat::Q30Factored | TableFormat::Q14Factored => 2,
+            TableFormat::CompactFactored => 3,
+        };
+        assert_eq!(opens, std::array::from_fn(|place| place == number));
+    }
+}
+
+#[test]
+fn the_cheapest_format_that_is_exact_enough_is_taken() {
+    let (cage, points) = finger();
+    let points = &points[..200];
+    let mut options = Options::default();
+    options.request.survey = true;
+    let surveyed = bake_points(&cage, points, &options).unwrap().report;
+    let reports = &surveyed.formats;
+    let unit = 2.0_f64.powi(-(surveyed.fraction_bits as i32));
+    assert_eq!(reports.len(), TableFormat::ALL.len());
+    for bound in reports {
+        let most = bound.proved * unit;
+        options.request.max_error = Some(most);
+        let baked = bake_points(&cage, points, &options).unwrap();
+        let taken = baked.report.formats[0];
+        assert!(taken.proved * unit <= most);
+        let cheaper = reports
+            .iter()
+            .filter(|other| other.instructions < taken.instructions);
+        assert!(cheaper.clone().all(|other| other.proved > bound.proved));
+    }
+    options.request.max_error = Some(1e-12);
+    let error = bake_points(&cage, points, &options).unwrap_err();
+    assert!(
+        error.message().starts_with("no format is as exact"),
+        "{error}"
+    );
 }

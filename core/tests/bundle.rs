@@ -9,7 +9,7 @@
 )]
 
 use fixed::types::{I12F20, I16F16};
-use octruss::bundle::{self, ALIGNMENT, Bundle, BundleError, RESIDUAL_LIMIT, checksum};
+use octruss::bundle::{self, ALIGNMENT, Bundle, BundleError, START_LIMIT, checksum};
 use octruss::deform::ApplyError;
 
 /// One in the weights' format.
@@ -39,69 +39,108 @@ impl Aligned {
     }
 }
 
+/// A section: kind, stage, bytes.
+type Section = (u32, u32, Vec<u8>);
+
 /// What a small bundle holds.
 #[derive(Clone)]
 struct Parts {
-    residuals: Vec<[i64; 3]>,
     rest_cage: Vec<[i32; 3]>,
-    row_starts: Vec<u32>,
-    weights: Vec<i32>,
+    groups: Vec<[u16; 2]>,
     indices: Vec<u16>,
+    weights: Vec<i32>,
+    starts: Vec<[i64; 3]>,
+    model_points: Vec<u16>,
+    more: Vec<Section>,
+}
+
+fn bytes_of<const N: usize>(numbers: impl IntoIterator<Item = [u8; N]>) -> Vec<u8> {
+    numbers.into_iter().flatten().collect()
 }
 
 impl Parts {
-    /// Two rows over three control points.
+    /// Two rows over three control points, each a group of its own, in the order opposite to the model's.
     fn sound() -> Self {
+        let half = 1 << 29;
         Self {
-            residuals: vec![[0; 3], [1 << 30, -(1 << 30), 5]],
             rest_cage: vec![[0, 0, 0], [100, 0, 0], [0, 100, 7]],
-            row_starts: vec![0, 2, 5],
-            weights: vec![ONE / 2, ONE / 2, ONE / 4, ONE, -ONE / 4],
+            groups: vec![[1, 2], [1, 3]],
             indices: vec![0, 1, 0, 1, 2],
+            weights: vec![ONE / 2, ONE / 2, ONE / 4, ONE, -ONE / 4],
+            starts: vec![[half; 3], [half + (1 << 30), half - (1 << 30), half + 5]],
+            model_points: vec![1, 0],
+            more: Vec::new(),
         }
     }
 
-    fn bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        bytes.extend(b"octruss\0");
-        bytes.extend([0; 12]); // version, length and checksum follow below
-        bytes.extend(16_u32.to_le_bytes());
-        bytes.extend(b"mm\0\0\0\0\0\0\0\0\0\0\0\0\0\0");
-        let counts = [
-            self.rest_cage.len(),
-            self.residuals.len(),
-            self.weights.len(),
+    fn sections(&self) -> Vec<Section> {
+        let stage = [3, self.starts.len() as u32, 1, 2, 0, 0, 0, 0];
+        let mut sections = vec![
+            (
+                1,
+                0,
+                bytes_of(self.rest_cage.iter().flatten().map(|x| x.to_le_bytes())),
+            ),
+            (2, 0, bytes_of(stage.map(u32::to_le_bytes))),
+            (
+                3,
+                0,
+                bytes_of(self.groups.iter().flatten().map(|x| x.to_le_bytes())),
+            ),
+            (4, 0, bytes_of(self.indices.iter().map(|x| x.to_le_bytes()))),
+            (5, 0, bytes_of(self.weights.iter().map(|x| x.to_le_bytes()))),
+            (
+                6,
+                0,
+                bytes_of(self.starts.iter().flatten().map(|x| x.to_le_bytes())),
+            ),
+            (
+                7,
+                0,
+                bytes_of(self.model_points.iter().map(|x| x.to_le_bytes())),
+            ),
         ];
-        for field in [1, 1, 2]
-            .into_iter()
-            .chain(counts.map(|count| count as u32))
-        {
+        sections.extend(self.more.iter().cloned());
+        sections
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        lay_out(self.rest_cage.len(), self.starts.len(), &self.sections())
+    }
+}
+
+/// The bytes of a bundle as `docs/bundle.md` has them.
+fn lay_out(control_points: usize, rows: usize, sections: &[Section]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    bytes.extend(b"octruss\0");
+    bytes.extend(1_u32.to_le_bytes());
+    bytes.extend([0; 8]); // length and checksum follow below
+    bytes.extend(16_u32.to_le_bytes());
+    bytes.extend(b"mm\0\0\0\0\0\0\0\0\0\0\0\0\0\0");
+    let counts = [control_points, rows, sections.len()].map(|count| count as u32);
+    for field in [1, 1, 2].into_iter().chain(counts) {
+        bytes.extend(field.to_le_bytes());
+    }
+    bytes.extend(0x1234_5678_u32.to_le_bytes());
+    bytes.extend(0x9abc_def0_u32.to_le_bytes());
+    bytes.resize(128, 0);
+    let mut end = 128 + 16 * sections.len();
+    for (kind, stage, section) in sections {
+        let offset = end.next_multiple_of(ALIGNMENT);
+        for field in [*kind, *stage, offset as u32, section.len() as u32] {
             bytes.extend(field.to_le_bytes());
         }
-        bytes.extend(0x1234_5678_u32.to_le_bytes());
-        bytes.extend(0x9abc_def0_u32.to_le_bytes());
-        bytes.resize(128, 0);
-        bytes.extend(
-            self.residuals
-                .iter()
-                .flatten()
-                .flat_map(|value| value.to_le_bytes()),
-        );
-        bytes.extend(
-            self.rest_cage
-                .iter()
-                .flatten()
-                .flat_map(|value| value.to_le_bytes()),
-        );
-        bytes.extend(self.row_starts.iter().flat_map(|value| value.to_le_bytes()));
-        bytes.extend(self.weights.iter().flat_map(|value| value.to_le_bytes()));
-        bytes.extend(self.indices.iter().flat_map(|value| value.to_le_bytes()));
-        bytes.resize(bytes.len().next_multiple_of(ALIGNMENT), 0);
-        let length = bytes.len() as u32;
-        bytes[12..16].copy_from_slice(&length.to_le_bytes());
-        seal(&mut bytes);
-        bytes
+        end = offset + section.len();
     }
+    for (_, _, section) in sections {
+        bytes.resize(bytes.len().next_multiple_of(ALIGNMENT), 0);
+        bytes.extend(section);
+    }
+    bytes.resize(bytes.len().next_multiple_of(ALIGNMENT), 0);
+    let length = bytes.len() as u32;
+    bytes[12..16].copy_from_slice(&length.to_le_bytes());
+    seal(&mut bytes);
+    bytes
 }
 
 /// Puts the right checksum in.
@@ -130,7 +169,8 @@ fn a_sound_bundle_opens_and_tells_what_it_holds() {
     assert_eq!(bundle.header().cage_checksum.get(), 0x1234_5678);
     assert_eq!(bundle.header().model_checksum.get(), 0x9abc_def0);
     assert_eq!(bundle.rest_cage()[2], [0, 100, 7]);
-    assert_eq!(bundle.row_starts(), [0, 2, 5]);
+    assert_eq!(bundle.model_points().iter().collect::<Vec<_>>(), [1, 0]);
+    assert_eq!(bundle.model_points().get(2), None);
     let table = bundle.table::<I16F16>().unwrap();
     assert_eq!(
         (table.rows(), table.control_points(), table.taps()),
@@ -143,6 +183,14 @@ fn a_sound_bundle_opens_and_tells_what_it_holds() {
             bundle: 16,
             wanted: 20
         }
+    );
+    assert_eq!(
+        bundle.factored_table::<I16F16>().unwrap_err(),
+        BundleError::OtherTable
+    );
+    assert_eq!(
+        bundle.compact_table::<I16F16>().unwrap_err(),
+        BundleError::OtherTable
     );
 }
 
@@ -217,7 +265,7 @@ fn lengths_that_do_not_fit_are_refused_and_nothing_is_written() {
 #[test]
 fn results_out_of_range_saturate_and_are_counted() {
     let mut parts = Parts::sound();
-    parts.residuals[1] = [RESIDUAL_LIMIT, -RESIDUAL_LIMIT, 0];
+    parts.starts[1] = [START_LIMIT, -START_LIMIT, 0];
     let bytes = Aligned::new(&parts.bytes());
     let table = Bundle::new_checked(bytes.bytes())
         .unwrap()
@@ -231,13 +279,18 @@ fn results_out_of_range_saturate_and_are_counted() {
 
 #[test]
 fn rows_that_break_the_contract_are_refused() {
-    let row_1 = |error| assert_eq!(error, BundleError::RowStart { row: 1 });
-    row_1(error_of(|parts| parts.row_starts[2] = 6));
-    row_1(error_of(|parts| parts.row_starts = vec![0, 2, 1]));
-    assert_eq!(
-        error_of(|parts| parts.row_starts[0] = 1),
-        BundleError::RowStart { row: 0 }
-    );
+    let stage = BundleError::Stage { stage: 0 };
+    let misfits: [fn(&mut Parts); 6] = [
+        |parts| parts.groups[1] = [1, 4],
+        |parts| parts.groups[1] = [2, 3],
+        |parts| parts.groups[0] = [0, 2],
+        |parts| parts.groups = vec![[1, 2]],
+        |parts| parts.indices.push(0),
+        |parts| parts.weights.push(0),
+    ];
+    for (index, misfit) in misfits.into_iter().enumerate() {
+        assert_eq!(error_of(misfit), stage, "misfit {index}");
+    }
     assert_eq!(
         error_of(|parts| parts.indices[4] = 3),
         BundleError::ControlPoint { row: 1 }
@@ -251,16 +304,40 @@ fn rows_that_break_the_contract_are_refused() {
         parts.weights[4] -= ONE / 4 + 1;
     });
     assert_eq!(above_two, BundleError::Weights { row: 1 });
-    let residual = error_of(|parts| parts.residuals[0][2] = RESIDUAL_LIMIT + 1);
-    assert_eq!(residual, BundleError::Residual { row: 0 });
-    let residual = error_of(|parts| parts.residuals[0][2] = i64::MIN);
-    assert_eq!(residual, BundleError::Residual { row: 0 });
-    // A last row that ends before the last tap.
-    let short = error_of(|parts| {
-        parts.weights = vec![ONE / 2, ONE / 2, ONE, 0, 0];
-        parts.row_starts = vec![0, 2, 3];
-    });
-    assert_eq!(short, BundleError::Header);
+    for start in [START_LIMIT + 1, -START_LIMIT - 1, i64::MIN] {
+        let start = error_of(|parts| parts.starts[1][2] = start);
+        assert_eq!(start, BundleError::Start { row: 1 });
+    }
+    let point = error_of(|parts| parts.model_points[0] = 2);
+    assert_eq!(point, BundleError::ModelPoints);
+    let missing = error_of(|parts| parts.model_points.truncate(1));
+    assert_eq!(missing, BundleError::ModelPoints);
+}
+
+#[test]
+fn sections_that_are_not_known_are_skipped_and_known_ones_must_be_single() {
+    let mut parts = Parts::sound();
+    parts.more = vec![(1000, 0, vec![1, 2, 3]), (7, 9, vec![5])];
+    assert_eq!(open(&parts.bytes()), Ok(()));
+    parts.more = vec![(5, 0, vec![0; 20])];
+    assert_eq!(open(&parts.bytes()), Err(BundleError::Section { index: 7 }));
+    let mut sections = Parts::sound().sections();
+    sections.remove(4);
+    let bytes = lay_out(3, 2, &sections);
+    assert_eq!(open(&bytes), Err(BundleError::Stage { stage: 0 }));
+}
+
+#[test]
+fn sections_in_a_wrong_place_are_refused() {
+    let good = Parts::sound().bytes();
+    // The offset and the length of section 2: one step farther, one byte longer than all.
+    for (place, value) in [(128 + 2 * 16 + 8, 8_u32), (128 + 2 * 16 + 12, u32::MAX)] {
+        let mut bad = good.clone();
+        let field = u32::from_le_bytes(bad[place..place + 4].try_into().unwrap());
+        bad[place..place + 4].copy_from_slice(&field.saturating_add(value).to_le_bytes());
+        seal(&mut bad);
+        assert_eq!(open(&bad), Err(BundleError::Section { index: 2 }));
+    }
 }
 
 #[test]
@@ -302,7 +379,7 @@ fn damaged_bytes_are_refused() {
     version[8] = 9;
     seal(&mut version);
     assert_eq!(open(&version), Err(BundleError::Version { found: 9 }));
-    for place in [20, 55, 44, 120, needed - 1] {
+    for place in [20, 55, 40, 120, needed - 1] {
         // Fraction bits, the unit's padding made bad UTF-8, scheme, reserved bytes, padding.
         let mut bad = good.clone();
         bad[place] = 0xff;

@@ -1,7 +1,7 @@
 //! Bundles of random tables, written from the documented layout alone.
 
 use octruss::bundle::{
-    ALIGNMENT, BOUNDARY_LOOP, Header, MAGIC, RESIDUAL_LIMIT, SCHEME_TET_OCT, VERSION, checksum,
+    ALIGNMENT, BOUNDARY_LOOP, Header, MAGIC, SCHEME_TET_OCT, START_LIMIT, VERSION, checksum,
 };
 use zerocopy::IntoBytes as _;
 use zerocopy::byteorder::little_endian::U32;
@@ -17,24 +17,20 @@ pub struct BundleBytes {
 impl BundleBytes {
     /// The bundle of a case, for coordinates with this many fraction bits.
     pub fn new(case: &ApplyCase<3>, fraction_bits: u32) -> Self {
-        let table = &case.table;
+        let sections = sections(case);
+        let mut table = Vec::new();
         let mut bytes = Vec::new();
-        for residual in residuals(case).as_flattened() {
-            bytes.extend(residual.to_le_bytes());
+        let start = size_of::<Header>() + 16 * sections.len();
+        for (kind, section) in &sections {
+            bytes.resize((start + bytes.len()).next_multiple_of(ALIGNMENT) - start, 0);
+            let offset = u32::try_from(start + bytes.len()).expect("a small bundle");
+            let length = u32::try_from(section.len()).expect("a small bundle");
+            table.extend([*kind, 0, offset, length].map(u32::to_le_bytes));
+            bytes.extend(section);
         }
-        for coordinate in case.rest_pose.as_flattened() {
-            bytes.extend(coordinate.to_le_bytes());
-        }
-        for start in &table.offsets {
-            bytes.extend(start.to_le_bytes());
-        }
-        for weight in &table.weights {
-            bytes.extend(weight.to_le_bytes());
-        }
-        for index in &table.indices {
-            bytes.extend(index.to_le_bytes());
-        }
-        bytes.resize(bytes.len().next_multiple_of(ALIGNMENT), 0);
+        let end = (start + bytes.len()).next_multiple_of(ALIGNMENT);
+        bytes.resize(end - start, 0);
+        let bytes = [table.as_flattened(), &bytes].concat();
         let count = |list: usize| U32::new(u32::try_from(list).expect("fewer than 2^32"));
         let header = Header {
             magic: MAGIC,
@@ -47,8 +43,8 @@ impl BundleBytes {
             boundary: BOUNDARY_LOOP.into(),
             levels: 1.into(),
             control_points: count(case.rest_pose.len()),
-            rows: count(table.row_count()),
-            taps: count(table.weights.len()),
+            rows: count(case.table.row_count()),
+            sections: count(sections.len()),
             cage_checksum: 0.into(),
             model_checksum: 0.into(),
             reserved: [0; 56],
@@ -87,6 +83,34 @@ impl BundleBytes {
     }
 }
 
+/// The sections of a case by their kinds: every row a group of its own, weights of 30 fraction bits, start
+/// values of 64 bits.
+fn sections(case: &ApplyCase<3>) -> [(u32, Vec<u8>); 6] {
+    let table = &case.table;
+    let rows = u32::try_from(table.row_count()).expect("fewer than 2^32");
+    let points = u32::try_from(case.rest_pose.len()).expect("fewer than 2^32");
+    let half = 1 << 29;
+    let starts = residuals(case)
+        .into_iter()
+        .flatten()
+        .map(|residual| residual + half);
+    let groups = table.offsets.windows(2).map(|ends| {
+        let taps = u16::try_from(ends[1] - ends[0]).expect("short rows");
+        [1, taps]
+    });
+    let bytes_of_4 = |words: &[i32]| words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let bytes_of_2 = |words: &[u16]| words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let stage = [points, rows, 1, 2, 0, 0, 0, 0];
+    [
+        (1, bytes_of_4(case.rest_pose.as_flattened())),
+        (2, stage.into_iter().flat_map(u32::to_le_bytes).collect()),
+        (3, bytes_of_2(groups.collect::<Vec<_>>().as_flattened())),
+        (4, bytes_of_2(&table.indices)),
+        (5, bytes_of_4(&table.weights)),
+        (6, starts.flat_map(i64::to_le_bytes).collect()),
+    ]
+}
+
 /// `rest * 2^30 - sum(weight * rest cage)` for each row and channel.
 pub fn residuals(case: &ApplyCase<3>) -> Vec<[i64; 3]> {
     let residual = |row: usize, channel: usize| {
@@ -102,9 +126,12 @@ pub fn residuals(case: &ApplyCase<3>) -> Vec<[i64; 3]> {
         .collect()
 }
 
-/// The first row with a residual that a bundle may not hold.
+/// The first row with a start value that a bundle may not hold.
 pub fn row_with_a_great_residual(case: &ApplyCase<3>) -> Option<u32> {
-    let is_great = |row: &[i64; 3]| row.iter().any(|residual| residual.abs() > RESIDUAL_LIMIT);
+    let is_great = |row: &[i64; 3]| {
+        row.iter()
+            .any(|residual| (residual + (1 << 29)).abs() > START_LIMIT)
+    };
     let place = residuals(case).iter().position(is_great)?;
     u32::try_from(place).ok()
 }

@@ -33,7 +33,7 @@ fn run(count: u64) -> Seen {
         if let Some(row) = row_with_a_great_residual(&case) {
             assert_eq!(
                 opened.err(),
-                Some(BundleError::Residual { row }),
+                Some(BundleError::Start { row }),
                 "seed {seed}"
             );
             seen.refused += 1;

@@ -5,7 +5,7 @@ use octruss_bake::error::{Result, count};
 use octruss_bake::inspect::interior_edges_of_valence_3;
 use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::table::format::MOST_FRACTION_BITS;
-use octruss_bake::table::{Input, Options, Outside, bake};
+use octruss_bake::table::{Input, Options, Outside, Request, TableFormat, bake};
 use octruss_bake::{check, read, write};
 use std::path::PathBuf;
 
@@ -46,6 +46,20 @@ pub struct Arguments {
     /// File with creases and corners of the cage: a line each, `crease A B` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
+    /// How the table is stored: see the report for what each format costs; by default q30, or what
+    /// --max-error chooses
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    format: Option<TableFormat>,
+    /// Take the cheapest format whose proved error is at most this, in the model's unit
+    #[arg(long, value_name = "ERROR")]
+    max_error: Option<f64>,
+    /// The farthest that a control point moves along an axis, in the cage's unit: what errors are proved
+    /// for, and what 16-bit displacements must hold; by default the cage's largest extent
+    #[arg(long, value_name = "DISTANCE")]
+    max_displacement: Option<f64>,
+    /// Keep the rows in the order of the model's points, which costs time and flash
+    #[arg(long)]
+    keep_order: bool,
     /// What to do with model points outside the refined cage
     #[arg(long, value_enum, default_value_t)]
     outside: Outside,
@@ -101,6 +115,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         fraction_bits: arguments.fraction_bits,
         unit: arguments.unit.clone(),
         outside: arguments.outside,
+        request: Request {
+            format: arguments.format,
+            max_error: arguments.max_error,
+            max_displacement: arguments.max_displacement,
+            keep_order: arguments.keep_order,
+            survey: true,
+        },
         random_poses: arguments.random_poses,
         seed: arguments.seed,
     };

@@ -6,11 +6,14 @@
 //! Tetrahedral Meshes". The real weights become integers that sum to one ([`mod@quantise`]);
 //! [`precision`] says what that costs; [`crate::bundle`] writes the bytes.
 
+mod choice;
 pub mod format;
+mod measure;
 pub mod precision;
 pub mod quantise;
 mod report;
 
+pub use choice::{FormatReport, Request, TableFormat};
 pub use report::{LargestRow, OutsideReport, Report, TapsReport, WeightsReport};
 
 use crate::bundle::{self, Contents, LONGEST_UNIT};
@@ -21,6 +24,7 @@ use crate::mesh::{Point, SolidMesh};
 use crate::progress::Progress;
 use crate::refine::rows::{Row, RowBlend, compose, composition_error, identity};
 use crate::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
+use choice::{Material, choose};
 use format::{Format, MOST_FRACTION_BITS};
 use precision::Table;
 use quantise::{QuantisedRow, quantise};
@@ -57,6 +61,8 @@ pub struct Options {
     pub unit: String,
     /// What to do with points outside.
     pub outside: Outside,
+    /// How the format of the table is chosen.
+    pub request: Request,
     /// Random poses on which the table's error is measured.
     pub random_poses: u32,
     /// Where their random numbers start from.
@@ -73,6 +79,7 @@ impl Default for Options {
             fraction_bits: None,
             unit: String::new(),
             outside: Outside::Error,
+            request: Request::default(),
             random_poses: 4,
             seed: 0,
         }
@@ -127,15 +134,29 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
     progress.step();
     let quantised = quantise_all(&rows, progress).map_err(of_model)?;
 
+    progress.stage("packing", 1);
+    let material = Material {
+        format,
+        embeddings: &embeddings,
+        matrices: &refined.matrices,
+        rows: &rows,
+        cage: &cage.points,
+        rest_cage: &rest_cage,
+        rest_model: &rest_model,
+        composition,
+        random_poses: options.random_poses,
+        seed: options.seed,
+    };
+    let (packed, formats) = choose(&material, options.request)?;
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,
         scheme: options.scheme,
         boundary: options.boundary,
         levels: options.levels,
-        rest_cage: &rest_cage,
-        rest_model: &rest_model,
-        rows: &quantised,
+        control_points: cage.points.len(),
+        rows: model.len(),
+        sections: &packed.sections,
         cage_checksum: bundle::cage_checksum(cage.points.len(), &cage.cells),
         model_checksum: bundle::model_checksum(model),
     })
@@ -164,6 +185,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         bytes: bytes.len(),
         weights: WeightsReport::of(&quantised),
         outside,
+        formats,
         precision,
     };
     Ok(Baked {

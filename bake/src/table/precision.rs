@@ -79,7 +79,7 @@ impl Table<'_> {
                 worst
             }
         });
-        let weight_error = change / ONE as f64 + self.composition;
+        let weight_error = change + self.composition;
         let half_size = self.rest_half_size();
         let bound = |reach: f64| weight_error * reach + ROUNDING;
         let (absolute, displacement) = self.measure(random_poses, seed, worst_row);

@@ -14,21 +14,39 @@ pub struct QuantisedRow {
     pub taps: Vec<(u32, i32)>,
 }
 
-/// Rounds every weight to the nearest multiple of 2^-30 and then moves as few weights as possible
+impl QuantisedRow {
+    /// The sum of the magnitudes of the weights, as a real number.
+    pub fn magnitude(&self) -> f64 {
+        let magnitudes = self.taps.iter().map(|(_, weight)| i64::from(*weight).abs());
+        magnitudes.sum::<i64>() as f64 / ONE as f64
+    }
+}
+
+/// Rounds every weight to the nearest multiple of 2^-30: see [`quantise_to`].
+///
+/// # Errors
+/// Those of [`quantise_to`].
+pub fn quantise(row: &Row) -> Result<QuantisedRow> {
+    quantise_to(row, WEIGHT_BITS)
+}
+
+/// Rounds every weight to the nearest multiple of 2^-bits (`bits` at most 30; the result is in units of 2^-30
+/// nevertheless) and then moves as few weights as possible
 /// by one unit so that the sum is one: those first whose remainder speaks for it most (the largest
 /// remainder; the lower control point on ties). Weights that become zero are dropped.
 ///
 /// # Errors
 /// If the magnitudes would add up to more than two, which only an extrapolated point far outside
 /// can bring about.
-pub fn quantise(row: &Row) -> Result<QuantisedRow> {
+pub fn quantise_to(row: &Row, bits: u32) -> Result<QuantisedRow> {
+    let one = 1_i64 << bits;
     // The product with a power of two and the difference of neighbours in size are exact.
-    let scaled = |weight: f64| weight * ONE as f64;
+    let scaled = |weight: f64| weight * one as f64;
     let mut taps: Vec<(u32, i64)> = row
         .iter()
         .map(|(column, weight)| (*column, scaled(*weight).round() as i64))
         .collect();
-    let missing = ONE - taps.iter().map(|(_, weight)| weight).sum::<i64>();
+    let missing = one - taps.iter().map(|(_, weight)| weight).sum::<i64>();
     let mut order: Vec<usize> = (0..taps.len()).collect();
     let remainder = |place: usize| scaled(row[place].1) - taps[place].1 as f64;
     let toward = if missing < 0 { -1.0 } else { 1.0 };
@@ -44,10 +62,10 @@ pub fn quantise(row: &Row) -> Result<QuantisedRow> {
         taps[place].1 += missing.signum();
     }
     let magnitude: i64 = taps.iter().map(|(_, weight)| weight.abs()).sum();
-    if magnitude > 2 * ONE {
+    if magnitude > 2 * one {
         return Err(Error::new(format!(
             "the magnitudes of its weights add up to {:.3}, more than two",
-            magnitude as f64 / ONE as f64
+            magnitude as f64 / one as f64
         ))
         .advise("the point lies too far outside the cage to be extrapolated; use --outside nearest, or enlarge the cage"));
     }
@@ -55,12 +73,12 @@ pub fn quantise(row: &Row) -> Result<QuantisedRow> {
     let taps = taps.into_iter().filter(|(_, weight)| *weight != 0);
     Ok(QuantisedRow {
         taps: taps
-            .map(|(column, weight)| (column, weight as i32))
+            .map(|(column, weight)| (column, (weight << (WEIGHT_BITS - bits)) as i32))
             .collect(),
     })
 }
 
-/// The sum of the magnitudes of what quantisation changed, in units of 2^-30.
+/// The sum of the magnitudes of what quantisation changed.
 pub fn total_change(row: &Row, quantised: &QuantisedRow) -> f64 {
     let mut taps = quantised.taps.iter().peekable();
     let mut total = 0.0;
@@ -70,7 +88,7 @@ pub fn total_change(row: &Row, quantised: &QuantisedRow) -> f64 {
             .map_or(0, |(_, weight)| *weight);
         total += (weight * ONE as f64 - f64::from(kept)).abs();
     }
-    total
+    total / ONE as f64
 }
 
 #[cfg(test)]
@@ -95,7 +113,7 @@ mod tests {
             quantised.taps,
             [(3, quarter), (5, quarter + 1), (9, 2 * quarter - 1)]
         );
-        assert!((total_change(&row, &quantised) - 1.2).abs() < 1e-6);
+        assert!((total_change(&row, &quantised) / UNIT - 1.2).abs() < 1e-6);
     }
 
     /// In units of 2^-30: 0.6, 0.7 and 0.7 over whole numbers round up and make one unit too many,

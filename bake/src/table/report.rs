@@ -2,8 +2,9 @@
 
 use super::precision::{FormPrecision, Precision};
 use super::quantise::{ONE, QuantisedRow};
-use super::{BoundaryRule, Outside, Scheme};
+use super::{BoundaryRule, FormatReport, Outside, Scheme};
 use crate::error::count;
+use clap::ValueEnum;
 use serde::Serialize;
 use std::fmt;
 
@@ -38,7 +39,9 @@ pub struct Report {
     pub weights: WeightsReport,
     /// Points outside the refined cage.
     pub outside: OutsideReport,
-    /// Errors of the table.
+    /// What every format costs; the one that was taken comes first.
+    pub formats: Vec<FormatReport>,
+    /// Errors of a direct table with weights of 30 fraction bits.
     pub precision: Precision,
 }
 
@@ -183,9 +186,10 @@ impl fmt::Display for Report {
             }
         }
         self.write_outside(f, unit)?;
+        self.write_formats(f, unit, step)?;
         writeln!(
             f,
-            "error of the quantised table against the unquantised map, in units in the last place"
+            "error of the q30 table against the unquantised map, in units in the last place"
         )?;
         let Precision {
             absolute,
@@ -213,6 +217,29 @@ fn write_form(f: &mut fmt::Formatter<'_>, name: &str, form: &FormPrecision) -> f
 }
 
 impl Report {
+    /// A line for each format.
+    fn write_formats(&self, f: &mut fmt::Formatter<'_>, unit: &str, step: f64) -> fmt::Result {
+        writeln!(
+            f,
+            "formats     bytes, bytes a tap, estimated instructions a tap (Cortex-M4), error{unit} proved and measured; * is written"
+        )?;
+        for (place, format) in self.formats.iter().enumerate() {
+            let name = format.format.to_possible_value();
+            let name = name.as_ref().map_or("", |name| name.get_name());
+            writeln!(
+                f,
+                "{} {name:<17} {:>9} {:>6.2} {:>6.2} {:>10.3e} {:>10.3e}",
+                if place == 0 { "*" } else { " " },
+                format.bytes,
+                format.bytes_a_tap,
+                format.instructions / self.taps.total.max(1) as f64,
+                format.proved * step,
+                format.measured * step
+            )?;
+        }
+        Ok(())
+    }
+
     fn write_outside(&self, f: &mut fmt::Formatter<'_>, unit: &str) -> fmt::Result {
         let outside = &self.outside;
         let what = match outside.treatment {

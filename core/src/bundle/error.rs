@@ -41,10 +41,15 @@ pub enum BundleError {
     },
     /// A field of the header, or the padding, has a value that no baker writes.
     Header,
-    /// A row's first tap lies before that of the row above, or past the last tap.
-    RowStart {
-        /// The row.
-        row: u32,
+    /// A section does not lie where it must, or is there twice.
+    Section {
+        /// Its entry in the section table, counted from 0.
+        index: u32,
+    },
+    /// A stage is missing, of an unknown format, or its parts do not fit one another.
+    Stage {
+        /// The stage, counted from 0.
+        stage: u32,
     },
     /// A row names a control point that does not exist.
     ControlPoint {
@@ -56,11 +61,16 @@ pub enum BundleError {
         /// The row.
         row: u32,
     },
-    /// A residual is larger than [`RESIDUAL_LIMIT`](super::RESIDUAL_LIMIT).
-    Residual {
+    /// A row's start value is larger than [`START_LIMIT`](super::START_LIMIT).
+    Start {
         /// The row.
         row: u32,
     },
+    /// A row names a point that the model does not have.
+    ModelPoints,
+    /// The bundle holds another kind of table than was asked for: for 32-bit coordinates or 16-bit
+    /// displacements, direct or factored.
+    OtherTable,
     /// The coordinate format is not the one that the program uses.
     FractionBits {
         /// Fraction bits of the bundle.
@@ -94,7 +104,11 @@ impl fmt::Display for BundleError {
                 "the bundle is damaged: its checksum is {stored:08x}, its bytes give {computed:08x}"
             ),
             Self::Header => f.write_str("the bundle's header holds a value that no baker writes"),
-            Self::RowStart { row } => write!(f, "the taps of row {row} lie outside the table"),
+            Self::Section { index } => write!(f, "section {index} of the bundle lies in a wrong place"),
+            Self::Stage { stage } => write!(
+                f,
+                "stage {stage} of the table is missing, or of a format that this library does not know"
+            ),
             Self::ControlPoint { row } => {
                 write!(f, "row {row} names a control point that does not exist")
             }
@@ -102,7 +116,11 @@ impl fmt::Display for BundleError {
                 f,
                 "the weights of row {row} do not add up to one, or their magnitudes to more than two"
             ),
-            Self::Residual { row } => write!(f, "the residual of row {row} is too large"),
+            Self::Start { row } => write!(f, "the start value of row {row} is too large"),
+            Self::ModelPoints => f.write_str("a row names a point that the model does not have"),
+            Self::OtherTable => f.write_str(
+                "the bundle holds another kind of table: bake it again with the --format that the program uses",
+            ),
             Self::FractionBits { bundle, wanted } => write!(
                 f,
                 "the bundle's coordinates have {bundle} fraction bits, the program's {wanted}: \

@@ -7,7 +7,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 pub const MAGIC: [u8; 8] = *b"octruss\0";
 
 /// The version that this library reads and the baker writes.
-pub const VERSION: u32 = 0;
+pub const VERSION: u32 = 1;
 
 /// [`Header::scheme`]: tetrahedra and octahedra.
 pub const SCHEME_TET_OCT: u32 = 1;
@@ -51,14 +51,77 @@ pub struct Header {
     pub levels: U32,
     /// Control points of the cage.
     pub control_points: U32,
-    /// Rows of the table: points of the model.
+    /// Points of the model: rows of the last stage.
     pub rows: U32,
-    /// Taps of all rows.
-    pub taps: U32,
+    /// Sections of the bundle.
+    pub sections: U32,
     /// CRC-32 of the cage's connectivity.
     pub cage_checksum: U32,
     /// CRC-32 of the model's points at rest.
     pub model_checksum: U32,
     /// Zero.
     pub reserved: [u8; 56],
+}
+
+/// [`Section::kind`]: the control points of the cage at rest.
+pub const SECTION_REST_CAGE: u32 = 1;
+/// [`Section::kind`]: a [`Stage`].
+pub const SECTION_STAGE: u32 = 2;
+/// [`Section::kind`]: rows and taps of every group.
+pub const SECTION_GROUPS: u32 = 3;
+/// [`Section::kind`]: the control points of every group.
+pub const SECTION_INDICES: u32 = 4;
+/// [`Section::kind`]: the weights.
+pub const SECTION_WEIGHTS: u32 = 5;
+/// [`Section::kind`]: what the sums of every row start from, or its rest position.
+pub const SECTION_STARTS: u32 = 6;
+/// [`Section::kind`]: which point of the model each row is.
+pub const SECTION_MODEL_POINTS: u32 = 7;
+
+/// An entry of the section table, which follows the header: 16 bytes.
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct Section {
+    /// What the section holds. Readers skip kinds that they do not know.
+    pub kind: U32,
+    /// The stage that it belongs to; 0 where that means nothing.
+    pub stage: U32,
+    /// First byte, counted from the bundle's first; a multiple of 8.
+    pub offset: U32,
+    /// Bytes, without the padding behind it.
+    pub bytes: U32,
+}
+
+/// [`Stage::format`]: weights of 32 bits with 30 fraction bits, 32-bit coordinates.
+pub const FORMAT_Q30: u32 = 1;
+/// [`Stage::format`]: weights of 16 bits with 14 fraction bits, 32-bit coordinates.
+pub const FORMAT_Q14: u32 = 2;
+/// [`Stage::format`]: weights of 16 bits with 14 fraction bits in pairs of rows, 16-bit displacements.
+pub const FORMAT_COMPACT: u32 = 3;
+
+/// [`Stage::starts`]: none; the stage has the absolute form only.
+pub const STARTS_NONE: u32 = 0;
+/// [`Stage::starts`]: three 32-bit sums a row.
+pub const STARTS_NARROW: u32 = 1;
+/// [`Stage::starts`]: three 64-bit sums a row.
+pub const STARTS_WIDE: u32 = 2;
+/// [`Stage::starts`]: three 32-bit coordinates a row, the rest position.
+pub const STARTS_REST: u32 = 3;
+
+/// What a stage of the table is: 32 bytes.
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct Stage {
+    /// Points that the rows are sums of: the control points, or the rows of the stage before.
+    pub inputs: U32,
+    /// Rows.
+    pub rows: U32,
+    /// How weights and inputs are stored.
+    pub format: U32,
+    /// What the sums start from.
+    pub starts: U32,
+    /// Shift of 16-bit displacements; 0 in other formats.
+    pub displacement_shift: U32,
+    /// Zero.
+    pub reserved: [u8; 12],
 }

@@ -1,59 +1,77 @@
 //! Where the sections lie.
 
 use core::mem::size_of;
-use core::ops::Range;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 
-use super::header::Header;
+use super::error::BundleError;
+use super::header::{Header, Section};
 
-/// The address of a bundle is a multiple of this many bytes.
+/// The address of a bundle is a multiple of this many bytes, and so is the offset of every section.
 pub const ALIGNMENT: usize = 8;
 
-/// The greatest magnitude of a residual: `2^62 - 2^30`. Added to a row's sum, which is at most
-/// `2^62`, and to the half of the rounding rule it fits 64 bits.
-pub const RESIDUAL_LIMIT: i64 = (1 << 62) - (1 << 30);
+/// The greatest magnitude of a 64-bit start value: `2^62 - 2^29`. Added to a row's sum, which is at most
+/// `2^62`, it fits 64 bits.
+pub const START_LIMIT: i64 = (1 << 62) - (1 << 29);
 
-/// The bytes of each section.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sections {
-    /// Three `i64` for each row.
-    pub residuals: Range<usize>,
-    /// Three `i32` for each control point.
-    pub rest_cage: Range<usize>,
-    /// One `u32` for each row, and one more.
-    pub row_starts: Range<usize>,
-    /// One `i32` for each tap.
-    pub weights: Range<usize>,
-    /// One `u16` for each tap.
-    pub indices: Range<usize>,
-    /// Bytes of the whole bundle, padding included.
-    pub total: usize,
+/// The bytes of a bundle and its section table, both checked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sections<'a> {
+    bytes: &'a [u8],
+    table: &'a [Section],
 }
 
-impl Sections {
-    /// The sections of a bundle of this size; `None` if it would be longer than memory.
-    #[must_use]
-    pub fn new(control_points: usize, rows: usize, taps: usize) -> Option<Self> {
-        let residuals = section(size_of::<Header>(), rows, 24)?;
-        let rest_cage = section(residuals.end, control_points, 12)?;
-        let row_starts = section(rest_cage.end, rows.checked_add(1)?, 4)?;
-        let weights = section(row_starts.end, taps, 4)?;
-        let indices = section(weights.end, taps, 2)?;
-        let total = indices.end.checked_next_multiple_of(ALIGNMENT)?;
-        Some(Self {
-            residuals,
-            rest_cage,
-            row_starts,
-            weights,
-            indices,
-            total,
-        })
+impl<'a> Sections<'a> {
+    /// Checks that the sections follow one another within the bytes, in order, each at the first multiple
+    /// of [`ALIGNMENT`] behind the one before, with zeros between and after them.
+    pub(super) fn new(bytes: &'a [u8], table: &'a [Section]) -> Result<Self, BundleError> {
+        let entries = size_of::<Section>().wrapping_mul(table.len());
+        let mut end = size_of::<Header>().wrapping_add(entries);
+        for (section, index) in table.iter().zip(0_u32..) {
+            let error = BundleError::Section { index };
+            let offset = size(section.offset.get()).ok_or(error)?;
+            let length = size(section.bytes.get()).ok_or(error)?;
+            let next = offset.checked_add(length).ok_or(error)?;
+            let padding = bytes.get(end..offset).ok_or(error)?;
+            let in_order = end.checked_next_multiple_of(ALIGNMENT) == Some(offset);
+            if !in_order || next > bytes.len() || padding.iter().any(|&byte| byte != 0) {
+                return Err(error);
+            }
+            end = next;
+        }
+        let padding = bytes.get(end..).ok_or(BundleError::Header)?;
+        if padding.len() >= ALIGNMENT || padding.iter().any(|&byte| byte != 0) {
+            return Err(BundleError::Header);
+        }
+        Ok(Self { bytes, table })
+    }
+
+    /// The bytes of the section of this kind and stage; `None` if there is none.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::Section`] if there are two.
+    pub(super) fn find(&self, kind: u32, stage: u32) -> Result<Option<&'a [u8]>, BundleError> {
+        let mut found = None;
+        for (section, index) in self.table.iter().zip(0_u32..) {
+            if section.kind.get() != kind || section.stage.get() != stage {
+                continue;
+            }
+            let error = BundleError::Section { index };
+            let offset = size(section.offset.get()).ok_or(error)?;
+            let length = size(section.bytes.get()).ok_or(error)?;
+            let bytes = self.bytes.get(offset..).and_then(|rest| rest.get(..length));
+            if found.replace(bytes.ok_or(error)?).is_some() {
+                return Err(error);
+            }
+        }
+        Ok(found)
     }
 }
 
-fn section(start: usize, elements: usize, each: usize) -> Option<Range<usize>> {
-    Some(start..start.checked_add(elements.checked_mul(each)?)?)
+/// A 32-bit count as a size of memory.
+pub(super) fn size(count: u32) -> Option<usize> {
+    usize::try_from(count).ok()
 }
 
 /// CRC-32 (ISO 3309) with its table of 256 words.

@@ -7,40 +7,34 @@
 //! [`Table::apply`](crate::deform::Table::apply) rely on, so that nothing has to be checked, and
 //! nothing can fail, on a tick.
 //!
-//! # Layout, version 0
+//! # Layout
 //!
-//! Version 0 carries no promise: its layout may change. All numbers are little-endian; the first
-//! byte lies on an address that is a multiple of [`ALIGNMENT`].
+//! The format is version 1; `docs/bundle.md` has it in full, with the promise that bundles of this version
+//! stay readable. A [`Header`] is followed by a table of [`Section`]s; readers skip sections of a kind that
+//! they do not know. All numbers are little-endian; the first byte lies on an address that is a multiple of
+//! [`ALIGNMENT`], and so does every section.
 //!
-//! | section | elements | type |
-//! | --- | --- | --- |
-//! | [`Header`] | 1 | 128 bytes |
-//! | residuals | rows x 3 | `i64`, in units of 2^-30 of a coordinate's last place |
-//! | rest cage | control points x 3 | `i32`, coordinate bits |
-//! | row starts | rows + 1 | `u32`, first tap of each row, then the number of taps |
-//! | weights | taps | `i32`, in units of 2^-30 |
-//! | control points of the taps | taps | `u16` |
-//! | padding | to a multiple of 8 | zero bytes |
-//!
-//! The weights of a row add up to exactly 2^30, their magnitudes to at most 2^31. The residual of
-//! a row and a coordinate is `rest * 2^30 - sum(weight * rest cage)`, of magnitude at most
-//! [`RESIDUAL_LIMIT`], where `rest` are the bits of the model point at rest; [`crate::deform`]
-//! says what it is for.
+//! A table has one [`Stage`], whose rows are sums over the control points, or two, of which the second has
+//! the rows of the first for inputs. Rows come in groups that share their inputs.
 //!
 //! The checksums are CRC-32 (the polynomial of ISO 3309, as in zip and Ethernet).
 
 mod error;
 mod header;
 mod layout;
+mod stage;
 mod view;
 
 pub use error::BundleError;
 pub use header::{
     BOUNDARY_FIXED, BOUNDARY_INTERIOR, BOUNDARY_LOOP, BOUNDARY_LOOP_WARREN, BOUNDARY_TRI_QUAD,
-    Header, MAGIC, SCHEME_BOX_SPLINE, SCHEME_BOX_SPLINE_AVERAGED, SCHEME_TET_OCT, VERSION,
+    FORMAT_COMPACT, FORMAT_Q14, FORMAT_Q30, Header, MAGIC, SCHEME_BOX_SPLINE,
+    SCHEME_BOX_SPLINE_AVERAGED, SCHEME_TET_OCT, SECTION_GROUPS, SECTION_INDICES,
+    SECTION_MODEL_POINTS, SECTION_REST_CAGE, SECTION_STAGE, SECTION_STARTS, SECTION_WEIGHTS,
+    STARTS_NARROW, STARTS_NONE, STARTS_REST, STARTS_WIDE, Section, Stage, VERSION,
 };
-pub use layout::{ALIGNMENT, RESIDUAL_LIMIT, Sections, checksum, checksum_of};
-pub use view::Bundle;
+pub use layout::{ALIGNMENT, START_LIMIT, checksum, checksum_of};
+pub use view::{Bundle, ModelPoints};
 
 /// Includes a bundle's bytes at the alignment that [`Bundle::new_checked`] asks for.
 ///

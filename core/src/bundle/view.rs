@@ -2,27 +2,27 @@
 
 use core::mem::size_of;
 
-use zerocopy::{FromBytes, Immutable, KnownLayout};
+use zerocopy::FromBytes;
 
 use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, SCHEME_BOX_SPLINE_AVERAGED, SCHEME_TET_OCT,
-    VERSION,
+    SECTION_MODEL_POINTS, SECTION_REST_CAGE, Section, VERSION,
 };
-use super::layout::{ALIGNMENT, RESIDUAL_LIMIT, Sections, checksum};
-use crate::blend::WEIGHT_BITS;
+use super::layout::{ALIGNMENT, Sections, checksum, size};
+use super::stage::{Body, StageParts, cast};
 use crate::coord::Coordinate;
-use crate::deform::Table;
+use crate::deform::{CompactTable, Table};
 
 /// A bundle that has been proved sound, still where it lay.
 #[derive(Clone, Copy, Debug)]
 pub struct Bundle<'a> {
     header: &'a Header,
-    residuals: &'a [[i64; 3]],
     rest_cage: &'a [[i32; 3]],
-    row_starts: &'a [u32],
-    weights: &'a [i32],
-    indices: &'a [u16],
+    /// The rows over the control points, and the rows over the points that these give.
+    first: StageParts<'a>,
+    second: Option<StageParts<'a>>,
+    model_points: ModelPoints<'a>,
 }
 
 impl<'a> Bundle<'a> {
@@ -30,12 +30,14 @@ impl<'a> Bundle<'a> {
     ///
     /// * it is aligned, complete, of a known version, and its checksum is right;
     /// * every section lies within the bytes, and the padding is zero;
-    /// * the rows' taps follow one another without a gap and end with the last tap;
-    /// * every tap names a control point that exists;
+    /// * groups, indices, weights and start values of a stage fit one another without a gap;
+    /// * every tap names a point that exists;
     /// * the weights of every row add up to exactly one and their magnitudes to at most two;
-    /// * no residual is larger than [`RESIDUAL_LIMIT`].
+    /// * no start value is larger than [`START_LIMIT`](super::START_LIMIT);
+    /// * every row names a point of the model.
     ///
-    /// The time is proportional to the bundle's bytes.
+    /// Sections of a kind that this version does not know are skipped. The time is proportional to the
+    /// bundle's bytes.
     ///
     /// # Errors
     ///
@@ -52,69 +54,32 @@ impl<'a> Bundle<'a> {
             needed,
             given: bytes.len(),
         };
-        let (header, _) = Header::ref_from_prefix(bytes).map_err(|_| truncated(needed))?;
-        let sections = check_header(header, bytes)?;
-        let bundle = Self {
-            header,
-            residuals: cast(bytes, &sections.residuals)?,
-            rest_cage: cast(bytes, &sections.rest_cage)?,
-            row_starts: cast(bytes, &sections.row_starts)?,
-            weights: cast(bytes, &sections.weights)?,
-            indices: cast(bytes, &sections.indices)?,
-        };
-        let padding = bytes.get(sections.indices.end..).unwrap_or_default();
-        if padding.iter().any(|&byte| byte != 0) {
+        let (header, behind) = Header::ref_from_prefix(bytes).map_err(|_| truncated(needed))?;
+        check_header(header, bytes)?;
+        let count = size(header.sections.get()).ok_or(BundleError::Header)?;
+        let (table, _) = <[Section]>::ref_from_prefix_with_elems(behind, count)
+            .map_err(|_| BundleError::Header)?;
+        let sections = Sections::new(bytes, table)?;
+        let rest_cage = sections.find(SECTION_REST_CAGE, 0)?;
+        let rest_cage: &[[i32; 3]] = cast(rest_cage.unwrap_or_default(), BundleError::Header)?;
+        if size(header.control_points.get()) != Some(rest_cage.len()) {
             return Err(BundleError::Header);
         }
-        bundle.check_rows()?;
-        Ok(bundle)
-    }
-
-    /// Proves what the kernels rely on, row by row.
-    fn check_rows(&self) -> Result<(), BundleError> {
-        let (mut weights, mut indices) = (self.weights, self.indices);
-        let mut end_above = 0;
-        let pairs = self.row_starts.windows(2).zip(self.residuals);
-        for ((starts, residual), row) in pairs.zip(0_u32..) {
-            let &[start, end] = starts else {
-                return Err(BundleError::RowStart { row });
-            };
-            let taps = end
-                .checked_sub(start)
-                .and_then(|taps| usize::try_from(taps).ok());
-            let (Some(taps), true) = (taps, start == end_above) else {
-                return Err(BundleError::RowStart { row });
-            };
-            end_above = end;
-            let (Some((row_weights, more_weights)), Some((row_indices, more_indices))) = (
-                weights.split_at_checked(taps),
-                indices.split_at_checked(taps),
-            ) else {
-                return Err(BundleError::RowStart { row });
-            };
-            (weights, indices) = (more_weights, more_indices);
-            if row_indices
-                .iter()
-                .any(|&index| usize::from(index) >= self.rest_cage.len())
-            {
-                return Err(BundleError::ControlPoint { row });
-            }
-            if !weights_are_sound(row_weights) {
-                return Err(BundleError::Weights { row });
-            }
-            let limit = RESIDUAL_LIMIT.unsigned_abs();
-            if residual
-                .iter()
-                .any(|coordinate| coordinate.unsigned_abs() > limit)
-            {
-                return Err(BundleError::Residual { row });
-            }
+        let first = StageParts::new(&sections, 0, rest_cage.len())?;
+        let first = first.ok_or(BundleError::Stage { stage: 0 })?;
+        let second = StageParts::new(&sections, 1, first.rows)?;
+        let rows = second.map_or(first.rows, |second| second.rows);
+        if size(header.rows.get()) != Some(rows) {
+            return Err(BundleError::Header);
         }
-        if weights.is_empty() {
-            Ok(())
-        } else {
-            Err(BundleError::Header)
-        }
+        let model_points = sections.find(SECTION_MODEL_POINTS, 0)?;
+        Ok(Self {
+            header,
+            rest_cage,
+            first,
+            second,
+            model_points: ModelPoints::new(model_points, rows)?,
+        })
     }
 
     /// The header.
@@ -140,52 +105,176 @@ impl<'a> Bundle<'a> {
         self.rest_cage
     }
 
-    /// The first tap of every row, and the number of taps.
+    /// Which point of the model each row is.
     #[must_use]
-    pub fn row_starts(&self) -> &'a [u32] {
-        self.row_starts
-    }
-
-    /// The weights of all taps, in units of 2^-30.
-    #[must_use]
-    pub fn weights(&self) -> &'a [i32] {
-        self.weights
-    }
-
-    /// The control points of all taps.
-    #[must_use]
-    pub fn indices(&self) -> &'a [u16] {
-        self.indices
-    }
-
-    /// The residuals of all rows.
-    #[must_use]
-    pub fn residuals(&self) -> &'a [[i64; 3]] {
-        self.residuals
+    pub fn model_points(&self) -> ModelPoints<'a> {
+        self.model_points
     }
 
     /// The table, for coordinates of the type `C`.
     ///
     /// # Errors
     ///
-    /// [`BundleError::FractionBits`] if the bundle was baked for another format.
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format,
+    /// [`BundleError::OtherTable`] if it holds a factored table or one for 16-bit displacements.
     pub fn table<C: Coordinate>(&self) -> Result<Table<'a, C>, BundleError> {
+        self.check_format::<C>()?;
+        match self.second {
+            None => wide(&self.first),
+            Some(_) => Err(BundleError::OtherTable),
+        }
+    }
+
+    /// The two tables of a factored one: the first makes refined points of the control points; these are
+    /// the pose of the second, which makes the model's points.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bundle::table`]; [`BundleError::OtherTable`] if the table is not factored.
+    pub fn factored_table<C: Coordinate>(&self) -> Result<[Table<'a, C>; 2], BundleError> {
+        self.check_format::<C>()?;
+        let second = self.second.as_ref().ok_or(BundleError::OtherTable)?;
+        Ok([wide(&self.first)?, wide(second)?])
+    }
+
+    /// The table for 16-bit displacements.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format,
+    /// [`BundleError::OtherTable`] if it holds a factored table or one for 32-bit coordinates.
+    pub fn compact_table<C: Coordinate>(&self) -> Result<CompactTable<'a, C>, BundleError> {
+        self.check_format::<C>()?;
+        match self.second {
+            None => compact(&self.first, self.rest_cage),
+            Some(_) => Err(BundleError::OtherTable),
+        }
+    }
+
+    /// The two tables of a factored one for 16-bit displacements, as in [`Bundle::factored_table`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bundle::compact_table`]; [`BundleError::OtherTable`] if the table is not factored.
+    pub fn compact_factored_table<C: Coordinate>(
+        &self,
+    ) -> Result<[CompactTable<'a, C>; 2], BundleError> {
+        self.check_format::<C>()?;
+        let second = self.second.as_ref().ok_or(BundleError::OtherTable)?;
+        let Body::Compact { rest, .. } = self.first.body else {
+            return Err(BundleError::OtherTable);
+        };
+        Ok([
+            compact(&self.first, self.rest_cage)?,
+            compact(second, rest)?,
+        ])
+    }
+
+    fn check_format<C: Coordinate>(&self) -> Result<(), BundleError> {
         let bundle = self.header.fraction_bits.get();
         match C::FRACTION_BITS {
             Some(wanted) if wanted != bundle => Err(BundleError::FractionBits { bundle, wanted }),
-            _ => Ok(Table::new(
-                self.rest_cage.len(),
-                self.row_starts,
-                self.weights,
-                self.indices,
-                self.residuals,
-            )),
+            _ => Ok(()),
         }
     }
 }
 
-/// Checks the header against the bytes and gives the sections.
-fn check_header(header: &Header, bytes: &[u8]) -> Result<Sections, BundleError> {
+fn wide<'a, C: Coordinate>(stage: &StageParts<'a>) -> Result<Table<'a, C>, BundleError> {
+    match stage.body {
+        Body::Wide {
+            weights,
+            starts,
+            greatest_start,
+        } => Ok(Table::new(
+            (stage.inputs, stage.rows),
+            stage.groups,
+            weights,
+            starts,
+            greatest_start,
+        )),
+        Body::Compact { .. } => Err(BundleError::OtherTable),
+    }
+}
+
+fn compact<'a, C: Coordinate>(
+    stage: &StageParts<'a>,
+    rest_inputs: &'a [[i32; 3]],
+) -> Result<CompactTable<'a, C>, BundleError> {
+    match stage.body {
+        Body::Compact {
+            weights,
+            rest,
+            shift,
+            greatest_rest,
+        } => Ok(CompactTable::new(
+            stage.groups,
+            weights,
+            rest,
+            rest_inputs,
+            shift,
+            greatest_rest,
+        )),
+        Body::Wide { .. } => Err(BundleError::OtherTable),
+    }
+}
+
+/// Which point of the model each row of a table is.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelPoints<'a> {
+    rows: usize,
+    stored: Stored<'a>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Stored<'a> {
+    /// Rows are in the model's order.
+    InOrder,
+    /// Up to 65 536 rows.
+    Narrow(&'a [u16]),
+    /// More.
+    Wide(&'a [u32]),
+}
+
+impl<'a> ModelPoints<'a> {
+    fn new(section: Option<&'a [u8]>, rows: usize) -> Result<Self, BundleError> {
+        let error = BundleError::ModelPoints;
+        let stored = match section {
+            None => Stored::InOrder,
+            Some(bytes) if rows <= 1 << 16 => Stored::Narrow(cast(bytes, error)?),
+            Some(bytes) => Stored::Wide(cast(bytes, error)?),
+        };
+        let points = Self { rows, stored };
+        let length = match stored {
+            Stored::InOrder => rows,
+            Stored::Narrow(stored) => stored.len(),
+            Stored::Wide(stored) => stored.len(),
+        };
+        let exist = (0..rows).all(|row| points.get(row).is_some_and(|point| point < rows));
+        if length == rows && exist {
+            Ok(points)
+        } else {
+            Err(error)
+        }
+    }
+
+    /// The point of the model that a row is; `None` if there is no such row.
+    #[must_use]
+    pub fn get(&self, row: usize) -> Option<usize> {
+        match self.stored {
+            Stored::InOrder => Some(row).filter(|&row| row < self.rows),
+            Stored::Narrow(stored) => stored.get(row).map(|&point| usize::from(point)),
+            Stored::Wide(stored) => stored.get(row).and_then(|&point| size(point)),
+        }
+    }
+
+    /// The points of the model, row by row.
+    pub fn iter(self) -> impl Iterator<Item = usize> + use<'a> {
+        (0..self.rows).filter_map(move |row| self.get(row))
+    }
+}
+
+/// Checks the header against the bytes.
+fn check_header(header: &Header, bytes: &[u8]) -> Result<(), BundleError> {
     if header.magic != MAGIC {
         return Err(BundleError::Magic);
     }
@@ -194,7 +283,7 @@ fn check_header(header: &Header, bytes: &[u8]) -> Result<Sections, BundleError> 
         return Err(BundleError::Version { found });
     }
     let given = bytes.len();
-    let needed = size(header.total_bytes.get())?;
+    let needed = size(header.total_bytes.get()).ok_or(BundleError::Header)?;
     if given < needed {
         return Err(BundleError::Truncated { needed, given });
     }
@@ -205,55 +294,14 @@ fn check_header(header: &Header, bytes: &[u8]) -> Result<Sections, BundleError> 
     if stored != computed {
         return Err(BundleError::Checksum { stored, computed });
     }
-    let sections = Sections::new(
-        size(header.control_points.get())?,
-        size(header.rows.get())?,
-        size(header.taps.get())?,
-    );
-    let sections = sections.ok_or(BundleError::Header)?;
-    let unit_is_text = core::str::from_utf8(&header.unit).is_ok();
     let known = (SCHEME_TET_OCT..=SCHEME_BOX_SPLINE_AVERAGED).contains(&header.scheme.get())
         && (BOUNDARY_LOOP..=BOUNDARY_FIXED).contains(&header.boundary.get())
         && header.fraction_bits.get() <= i32::BITS
         && header.reserved.iter().all(|&byte| byte == 0)
-        && unit_is_text
-        && sections.total == needed;
+        && core::str::from_utf8(&header.unit).is_ok();
     if known {
-        Ok(sections)
+        Ok(())
     } else {
         Err(BundleError::Header)
     }
-}
-
-fn size(count: u32) -> Result<usize, BundleError> {
-    usize::try_from(count).map_err(|_| BundleError::Header)
-}
-
-/// Sees a section as what it holds. The header was checked against the length, and every section
-/// is aligned because the ones before it are whole multiples of its type.
-fn cast<'a, T: FromBytes + Immutable + KnownLayout>(
-    bytes: &'a [u8],
-    section: &core::ops::Range<usize>,
-) -> Result<&'a [T], BundleError> {
-    let truncated = BundleError::Truncated {
-        needed: section.end,
-        given: bytes.len(),
-    };
-    let section = bytes.get(section.clone()).ok_or(truncated)?;
-    <[T]>::ref_from_bytes(section).map_err(|_| BundleError::Unaligned)
-}
-
-/// The weights add up to one, and their magnitudes to at most two.
-///
-/// At most `2^32` taps of at most `2^31` each fit 64 bits.
-fn weights_are_sound(weights: &[i32]) -> bool {
-    let mut sum = 0_i64;
-    let mut magnitude = 0_i64;
-    for &weight in weights {
-        let weight = i64::from(weight);
-        sum = sum.wrapping_add(weight);
-        magnitude = magnitude.saturating_add(weight.wrapping_abs());
-    }
-    let one = 1_i64 << WEIGHT_BITS;
-    sum == one && magnitude <= one.wrapping_mul(2)
 }

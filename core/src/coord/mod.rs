@@ -28,6 +28,12 @@ pub trait Coordinate: Copy + Default + 'static {
 
     /// The raw bits: the coordinate in units of its last place.
     fn to_bits(self) -> i32;
+
+    /// The raw bits of points, where they lie.
+    fn bits_of(points: &[[Self; 3]]) -> &[[i32; 3]];
+
+    /// The raw bits of points, where they lie, to be written.
+    fn bits_of_mut(points: &mut [[Self; 3]]) -> &mut [[i32; 3]];
 }
 
 impl Coordinate for i32 {
@@ -42,6 +48,16 @@ impl Coordinate for i32 {
     fn to_bits(self) -> i32 {
         self
     }
+
+    #[inline(always)]
+    fn bits_of(points: &[[Self; 3]]) -> &[[i32; 3]] {
+        points
+    }
+
+    #[inline(always)]
+    fn bits_of_mut(points: &mut [[Self; 3]]) -> &mut [[i32; 3]] {
+        points
+    }
 }
 
 impl<Frac: LeEqU32 + 'static> Coordinate for FixedI32<Frac> {
@@ -55,6 +71,17 @@ impl<Frac: LeEqU32 + 'static> Coordinate for FixedI32<Frac> {
     #[inline(always)]
     fn to_bits(self) -> i32 {
         FixedI32::to_bits(self)
+    }
+
+    #[inline(always)]
+    fn bits_of(points: &[[Self; 3]]) -> &[[i32; 3]] {
+        // Never fails: a `FixedI32` is nothing but its bits.
+        bytemuck::try_cast_slice(points).unwrap_or_default()
+    }
+
+    #[inline(always)]
+    fn bits_of_mut(points: &mut [[Self; 3]]) -> &mut [[i32; 3]] {
+        bytemuck::try_cast_slice_mut(points).unwrap_or_default()
     }
 }
 

@@ -19,7 +19,15 @@
 //! `residual = rest * 2^30 - sum(w p_rest)`: the same multiplications as the absolute form, from
 //! another start value.
 
-mod apply;
+mod compact;
+mod groups;
+mod kernel;
 mod table;
+mod wide;
 
+pub(crate) use compact::weight_place;
+pub use compact::{CompactTable, Displacement, Displacements, displacement_shift};
+pub(crate) use groups::Groups;
+pub(crate) use kernel::{EXCLUDED_DISPLACEMENT_SHIFT, MOST_DISPLACEMENT_SHIFT};
 pub use table::{ApplyError, Table};
+pub(crate) use table::{Starts, Weights};
