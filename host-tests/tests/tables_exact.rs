@@ -125,3 +125,58 @@ fn the_absolute_form_gives_the_bits_of_the_reference() {
         }
     }
 }
+
+/// After some control points have moved, computing their rows alone gives what computing all gives.
+#[test]
+fn partial_updates_give_the_bits_of_whole_ones() {
+    let (mut computed, mut all) = (0, 0);
+    for seed in 0..case_count() {
+        let case = BundleCase::new(seed, 40, 80, layout(seed));
+        let bytes = BundleBytes::new(&case.bytes);
+        let bundle = bytes.open().expect("a sound bundle");
+        let before = &case.case.pose;
+        // Every third control point at most moves, and some poses not at all.
+        let moves = |point: usize| (seed as usize + point).is_multiple_of(3 + seed as usize % 9);
+        let marks: Vec<bool> = (0..before.len()).map(moves).collect();
+        let moved = before.iter().zip(&marks).map(|(point, moves)| match moves {
+            true => point.map(|bits| bits.wrapping_mul(3).wrapping_add(77)),
+            false => *point,
+        });
+        let after: Vec<[i32; 3]> = moved.collect();
+        let rows = case.order.len();
+        let (mut want, mut got) = (vec![[0; 3]; rows], vec![[0; 3]; rows]);
+        let updated = if let Ok(table) = bundle.table::<i32>() {
+            table
+                .apply(0..rows, &after, &mut want)
+                .expect("fitting lengths");
+            table
+                .apply(0..rows, before, &mut got)
+                .expect("fitting lengths");
+            table.apply_moved(&marks, &after, &mut got)
+        } else {
+            let table = bundle.compact_table::<i32>().expect("a compact table");
+            let mut memory = vec![Displacement::default(); before.len()];
+            let now = table
+                .displacements(before, &mut memory)
+                .expect("fitting lengths");
+            table
+                .apply(0..rows, &now, &mut got)
+                .expect("fitting lengths");
+            let now = table
+                .displacements(&after, &mut memory)
+                .expect("fitting lengths");
+            table
+                .apply(0..rows, &now, &mut want)
+                .expect("fitting lengths");
+            table.apply_moved(&marks, &now, &mut got)
+        };
+        let updated = updated.expect("fitting lengths");
+        assert_eq!(got, want, "seed {seed}");
+        computed += updated.rows;
+        all += rows;
+    }
+    assert!(
+        computed > all / 10 && computed < all * 9 / 10,
+        "{computed} of {all} rows"
+    );
+}

@@ -8,6 +8,7 @@ use super::kernel::{
     self, EXCLUDED_DISPLACEMENT_SHIFT, MOST_DISPLACEMENT_SHIFT, MOST_TAPS, Pair, TAPS_A_STEP,
     scaled,
 };
+use super::moved::{Moved, Updated};
 use super::table::ApplyError;
 use crate::coord::{Coordinate, rounding_start, saturate};
 
@@ -210,6 +211,40 @@ impl<'a, C: Coordinate> CompactTable<'a, C> {
         displacements: &Displacements<'_>,
         out: &mut [[C; 3]],
     ) -> Result<u32, ApplyError> {
+        self.run(rows, displacements, out, Moved::All)
+            .map(|updated| updated.saturated)
+    }
+
+    /// Computes only rows that a moved control point has a part in.
+    ///
+    /// `out` holds a point for each row of the table, as the pose before gave them; `moved` says for each
+    /// control point whether its displacement is another now. The result is then what
+    /// [`CompactTable::apply`] gives for all rows, to the bit. Rows are taken by groups: a group is
+    /// computed if one of its control points has moved.
+    ///
+    /// # Errors
+    ///
+    /// An [`ApplyError`] if a length does not fit; nothing is then written.
+    pub fn apply_moved(
+        &self,
+        moved: &[bool],
+        displacements: &Displacements<'_>,
+        out: &mut [[C; 3]],
+    ) -> Result<Updated, ApplyError> {
+        let (needed, given) = (self.rest_cage.len(), moved.len());
+        if needed != given {
+            return Err(ApplyError::MarksLength { needed, given });
+        }
+        self.run(0..self.rows(), displacements, out, Moved::Marked(moved))
+    }
+
+    fn run(
+        &self,
+        rows: Range<usize>,
+        displacements: &Displacements<'_>,
+        out: &mut [[C; 3]],
+        moved: Moved<'_>,
+    ) -> Result<Updated, ApplyError> {
         let (needed, given) = (self.rest_cage.len(), displacements.displacements.len());
         if needed != given {
             return Err(ApplyError::PoseLength { needed, given });
@@ -227,25 +262,20 @@ impl<'a, C: Coordinate> CompactTable<'a, C> {
             .wrapping_add(1);
         let may_saturate = reach > u64::from(i32::MAX.unsigned_abs());
         let displacements = displacements.displacements;
-        Ok(self.apply_rows(
-            rows.start,
-            rest,
-            displacements,
-            C::bits_of_mut(out),
-            may_saturate,
-        ))
+        let out = C::bits_of_mut(out);
+        Ok(self.apply_rows((rows.start, rest), displacements, out, moved, may_saturate))
     }
 
     /// The rows from `start` on that belong to `rest`.
     fn apply_rows(
         &self,
-        start: usize,
-        mut rest: &[[i32; 3]],
+        (start, mut rest): (usize, &[[i32; 3]]),
         displacements: &[Displacement],
         mut out: &mut [[i32; 3]],
+        moved: Moved<'_>,
         may_saturate: bool,
-    ) -> u32 {
-        let mut saturated = 0;
+    ) -> Updated {
+        let mut updated = Updated::default();
         let mut scratch = [[Pair::default(); 3]; MOST_TAPS / TAPS_A_STEP];
         let Some(Position {
             mut first_row,
@@ -254,7 +284,7 @@ impl<'a, C: Coordinate> CompactTable<'a, C> {
             weights_before,
         }) = self.groups.find(start)
         else {
-            return 0;
+            return updated;
         };
         let mut weights = self.weights.get(weights_before..).unwrap_or_default();
         for &[group_rows, taps] in groups {
@@ -277,6 +307,10 @@ impl<'a, C: Coordinate> CompactTable<'a, C> {
                 break;
             };
             (indices, weights, rest, out) = (more_indices, more_weights, more_rest, more_out);
+            if !moved.any_of(group_indices) {
+                continue;
+            }
+            updated.rows = updated.rows.wrapping_add(count);
             let group = Group {
                 indices: group_indices,
                 weights: group_weights,
@@ -290,11 +324,12 @@ impl<'a, C: Coordinate> CompactTable<'a, C> {
                     group.apply_quick(points, displacements, self.shift, group_out);
                 }
                 _ => {
-                    saturated = group.apply_checked(displacements, self.shift, group_out, saturated)
+                    updated.saturated =
+                        group.apply_checked(displacements, self.shift, group_out, updated.saturated)
                 }
             }
         }
-        saturated
+        updated
     }
 }
 

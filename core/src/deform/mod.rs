@@ -22,6 +22,7 @@
 mod compact;
 mod groups;
 mod kernel;
+mod moved;
 mod table;
 mod wide;
 
@@ -29,5 +30,6 @@ pub(crate) use compact::weight_place;
 pub use compact::{CompactTable, Displacement, Displacements, displacement_shift};
 pub(crate) use groups::Groups;
 pub(crate) use kernel::{EXCLUDED_DISPLACEMENT_SHIFT, MOST_DISPLACEMENT_SHIFT};
+pub use moved::Updated;
 pub use table::{ApplyError, Table};
 pub(crate) use table::{Starts, Weights};

@@ -6,6 +6,7 @@ use core::ops::Range;
 
 use super::groups::Groups;
 use super::kernel::{Half, Start};
+use super::moved::{Moved, Updated};
 use super::wide::{self, Weight};
 use crate::bundle::BundleError;
 use crate::coord::Coordinate;
@@ -111,6 +112,13 @@ pub enum ApplyError {
         /// Control points of the cage.
         needed: usize,
         /// Length of the memory.
+        given: usize,
+    },
+    /// There are more or fewer marks of moved control points than control points.
+    MarksLength {
+        /// Control points of the cage.
+        needed: usize,
+        /// Marks given.
         given: usize,
     },
     /// The table has the absolute form only: it was baked without rest positions.
@@ -253,8 +261,39 @@ impl<'a, C: Coordinate> Table<'a, C> {
         self.check(&rows, pose, out)?;
         match self.starts {
             Starts::None => Err(ApplyError::NoRestPositions),
-            Starts::Narrow(starts) => Ok(self.run(starts, rows, pose, out)),
-            Starts::Wide(starts) => Ok(self.run(starts, rows, pose, out)),
+            Starts::Narrow(starts) => Ok(self.run(starts, rows, pose, out, Moved::All).saturated),
+            Starts::Wide(starts) => Ok(self.run(starts, rows, pose, out, Moved::All).saturated),
+        }
+    }
+
+    /// Computes only rows that a moved control point has a part in, in the displacement form.
+    ///
+    /// `out` holds a point for each row of the table, as the pose before gave them; `moved` says for
+    /// each control point whether `pose` has it elsewhere. The result is then what [`Table::apply`] gives
+    /// for all rows, to the bit. Rows are taken by groups: a group is computed if one of its control points
+    /// has moved.
+    ///
+    /// # Errors
+    ///
+    /// An [`ApplyError`] if a length does not fit or the table has no rest positions; nothing is then
+    /// written.
+    pub fn apply_moved(
+        &self,
+        moved: &[bool],
+        pose: &[[C; 3]],
+        out: &mut [[C; 3]],
+    ) -> Result<Updated, ApplyError> {
+        let rows = 0..self.rows;
+        self.check(&rows, pose, out)?;
+        let (needed, given) = (self.inputs, moved.len());
+        if needed != given {
+            return Err(ApplyError::MarksLength { needed, given });
+        }
+        let moved = Moved::Marked(moved);
+        match self.starts {
+            Starts::None => Err(ApplyError::NoRestPositions),
+            Starts::Narrow(starts) => Ok(self.run(starts, rows, pose, out, moved)),
+            Starts::Wide(starts) => Ok(self.run(starts, rows, pose, out, moved)),
         }
     }
 
@@ -279,9 +318,10 @@ impl<'a, C: Coordinate> Table<'a, C> {
         const HALVES_14: &[Half<14>] = &[Half; usize::MAX];
         self.check(&rows, pose, out)?;
         Ok(match self.weights {
-            Weights::Q30(weights) => self.run_with(weights, HALVES_30, rows, pose, out),
-            Weights::Q14(weights) => self.run_with(weights, HALVES_14, rows, pose, out),
-        })
+            Weights::Q30(weights) => self.run_with(weights, HALVES_30, rows, pose, out, Moved::All),
+            Weights::Q14(weights) => self.run_with(weights, HALVES_14, rows, pose, out, Moved::All),
+        }
+        .saturated)
     }
 
     fn run<S: Start>(
@@ -290,10 +330,11 @@ impl<'a, C: Coordinate> Table<'a, C> {
         rows: Range<usize>,
         pose: &[[C; 3]],
         out: &mut [[C; 3]],
-    ) -> u32 {
+        moved: Moved<'_>,
+    ) -> Updated {
         match self.weights {
-            Weights::Q30(weights) => self.run_with(weights, starts, rows, pose, out),
-            Weights::Q14(weights) => self.run_with(weights, starts, rows, pose, out),
+            Weights::Q30(weights) => self.run_with(weights, starts, rows, pose, out, moved),
+            Weights::Q14(weights) => self.run_with(weights, starts, rows, pose, out, moved),
         }
     }
 
@@ -304,13 +345,22 @@ impl<'a, C: Coordinate> Table<'a, C> {
         rows: Range<usize>,
         pose: &[[C; 3]],
         out: &mut [[C; 3]],
-    ) -> u32 {
+        moved: Moved<'_>,
+    ) -> Updated {
         let (pose, out) = (C::bits_of(pose), C::bits_of_mut(out));
         let reach = u64::from(greatest_magnitude(pose))
             .wrapping_mul(2)
             .wrapping_add(self.greatest_start.into());
         let may_saturate = reach > u64::from(i32::MAX.unsigned_abs());
-        wide::apply(self.groups, weights, starts, rows, pose, out, may_saturate)
+        wide::apply(
+            self.groups,
+            weights,
+            starts,
+            rows,
+            (pose, out),
+            moved,
+            may_saturate,
+        )
     }
 
     fn check(
@@ -367,6 +417,12 @@ impl fmt::Display for ApplyError {
                 write!(
                     f,
                     "the memory holds {given} displacements, the table's cage has {needed} control points"
+                )
+            }
+            Self::MarksLength { needed, given } => {
+                write!(
+                    f,
+                    "{given} control points are marked or not, the table's cage has {needed}"
                 )
             }
             Self::NoRestPositions => f.write_str(

@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use super::groups::{Groups, Position};
 use super::kernel::{self, MOST_TAPS, Start};
+use super::moved::{Moved, Updated};
 use crate::coord::{floor_shift, saturate};
 
 /// A weight of 16 or 32 bits, and the kernel that takes it.
@@ -33,7 +34,8 @@ impl Weight for i32 {
     }
 }
 
-/// Computes a range of rows; returns how many coordinates saturated.
+/// Computes a range of rows, of which `moved` may leave some out; returns how many there were and how many
+/// coordinates saturated.
 ///
 /// `may_saturate` is false if no result can leave 32 bits, which lets the kernels leave out that check.
 /// Lengths were checked by the caller: `starts` holds a value for each row of the table, and `out` a point
@@ -44,14 +46,14 @@ pub(super) fn apply<W: Weight, S: Start>(
     weights: &[W],
     starts: &[S],
     rows: Range<usize>,
-    pose: &[[i32; 3]],
-    mut out: &mut [[i32; 3]],
+    (pose, mut out): (&[[i32; 3]], &mut [[i32; 3]]),
+    moved: Moved<'_>,
     may_saturate: bool,
-) -> u32 {
-    let mut saturated = 0;
+) -> Updated {
+    let mut updated = Updated::default();
     let mut scratch = [[0_i32; 3]; MOST_TAPS];
     let Some((position, mut starts)) = groups.find(rows.start).zip(starts.get(rows)) else {
-        return 0;
+        return updated;
     };
     let Position {
         mut first_row,
@@ -84,6 +86,10 @@ pub(super) fn apply<W: Weight, S: Start>(
             break;
         };
         (indices, weights, starts, out) = (more_indices, more_weights, more_starts, more_out);
+        if !moved.any_of(group_indices) {
+            continue;
+        }
+        updated.rows = updated.rows.wrapping_add(count);
         match scratch.get_mut(..taps) {
             Some(points) if !may_saturate => {
                 for (point, &index) in points.iter_mut().zip(group_indices) {
@@ -96,12 +102,18 @@ pub(super) fn apply<W: Weight, S: Start>(
             _ => {
                 let rows = group_weights.chunks_exact(taps.max(1)).zip(group_starts);
                 for (slot, (row, start)) in group_out.iter_mut().zip(rows) {
-                    *slot = checked_row(row, group_indices, start.sums(), pose, &mut saturated);
+                    *slot = checked_row(
+                        row,
+                        group_indices,
+                        start.sums(),
+                        pose,
+                        &mut updated.saturated,
+                    );
                 }
             }
         }
     }
-    saturated
+    updated
 }
 
 /// One row whose result may leave 32 bits.
