@@ -7,6 +7,7 @@
 //! * [`check`], [`inspect`]: is it a sound solid, and what is there to know about it.
 //! * [`refine`]: core's subdivision over vectors, in double precision, in the device's bits, or as
 //!   sparse matrices.
+//! * [`surface`]: the same for control meshes of polygons.
 //! * [`locate`]: which refined cell holds a point, and the point's coordinates in it.
 //! * [`table`]: the weights of every model point on the control points, as integers, with a proved
 //!   bound of their error.
@@ -34,5 +35,6 @@ pub mod picture;
 pub mod progress;
 pub mod read;
 pub mod refine;
+pub mod surface;
 pub mod table;
 pub mod write;

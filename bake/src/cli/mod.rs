@@ -1,11 +1,13 @@
 //! The commands: each reads files, calls the library, and writes files or prints figures.
 
+mod any_scheme;
 mod bake;
 mod deform;
 mod info;
 mod poses;
 mod progress;
 mod refine;
+mod refine_surface;
 mod scheme;
 mod source;
 

@@ -1,11 +1,13 @@
 //! `octruss refine`.
 
-use super::{print_figures, progress::Bars, scheme, show_notes};
+use super::scheme as schemes;
+use super::{any_scheme::AnyScheme, print_figures, progress::Bars, refine_surface, show_notes};
 use octruss_bake::check::{self, Volumes};
 use octruss_bake::error::{Error, Result, count};
 use octruss_bake::mesh::{Features, SolidMesh};
 use octruss_bake::progress::Progress;
 use octruss_bake::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
+use octruss_bake::surface::RimRule;
 use octruss_bake::table::format::{Format, MOST_FRACTION_BITS};
 use octruss_bake::{read, write};
 use serde::Serialize;
@@ -13,7 +15,7 @@ use std::path::PathBuf;
 
 /// The numbers that a refinement is computed with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Numeric {
+pub enum Numeric {
     /// Double precision, not held to any grid
     F64,
     /// The device's fixed-point numbers, to the bit
@@ -24,40 +26,47 @@ enum Numeric {
 ///
 /// The output is a solid as .vtu (octahedra as polyhedra, all vertices in the refined order), or
 /// its boundary as .obj (the triangles and their vertices, in the refined order). Neither holds
-/// creases and corners: refine once with all the levels wanted.
+/// creases and corners: refine once with all the levels wanted. A surface is written with all its
+/// polygons as .obj or .off; crease tags of .obj files are read as OpenSubdiv writes them.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
-    mesh: PathBuf,
-    /// The subdivision scheme
+    /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu; a surface's control mesh: .obj or .off
+    pub mesh: PathBuf,
+    /// The subdivision scheme: of solids (tet-oct and so on) or of surfaces
     #[arg(long, value_enum, default_value_t)]
-    scheme: Scheme,
+    scheme: AnyScheme,
     /// File with the major diagonals of the cells, for `box-spline`: 0, 1 or 2 for each
     /// tetrahedron, then each octahedron, in file order; by default they are chosen
     #[arg(long, value_name = "FILE")]
     diagonals: Option<PathBuf>,
     /// How many times to refine; a level has about eight times the cells of the one before
     #[arg(long, value_name = "K", default_value_t = 1)]
-    levels: u32,
-    /// What the boundary follows
+    pub levels: u32,
+    /// What the boundary of a solid follows
     #[arg(long, value_enum, default_value_t)]
     boundary: BoundaryRule,
+    /// What the rim of an open surface follows
+    #[arg(long, value_enum, default_value_t)]
+    pub rim: RimRule,
+    /// Surfaces: move the vertices of the last level to where they go in the limit
+    #[arg(long)]
+    pub limit: bool,
     /// The numbers to compute with
     #[arg(long, value_enum, default_value = "f64")]
-    numeric: Numeric,
+    pub numeric: Numeric,
     /// With --numeric fixed: bits after the point of the 32-bit coordinates, 0 to 32; by default as
     /// many as leave two bits of headroom over the mesh's largest coordinate
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_FRACTION_BITS)))]
-    fraction_bits: Option<u32>,
+    pub fraction_bits: Option<u32>,
     /// File with creases and corners: a line each, `crease A B` or `corner A`
     #[arg(long, value_name = "FILE")]
-    features: Option<PathBuf>,
-    /// The file to write: .vtu or .obj
+    pub features: Option<PathBuf>,
+    /// The file to write: .vtu or .obj, for surfaces .obj or .off
     #[arg(short, long, value_name = "OUT")]
-    output: PathBuf,
+    pub output: PathBuf,
     /// Print the figures as one JSON object
     #[arg(long)]
-    json: bool,
+    pub json: bool,
 }
 
 /// What is printed.
@@ -76,6 +85,16 @@ struct Figures {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
+    match arguments.scheme {
+        AnyScheme::Surface(scheme) => refine_surface::run(scheme, arguments),
+        AnyScheme::Solid(scheme) => refine_solid(scheme, arguments),
+    }
+}
+
+fn refine_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
+    if arguments.limit {
+        return Err(Error::new("--limit is for schemes of surfaces"));
+    }
     let extension = read::extension(&arguments.output);
     if !matches!(extension.as_str(), "vtu" | "obj") {
         return Err(Error::new(format!("no writer for \".{extension}\" files"))
@@ -84,10 +103,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     }
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
-    let diagonals = scheme::diagonals(arguments.scheme, arguments.diagonals.as_deref(), &mesh)?;
-    scheme::warn_of_improper_faces(&mesh, arguments.scheme, diagonals.as_ref())
+    let diagonals = schemes::diagonals(scheme, arguments.diagonals.as_deref(), &mesh)?;
+    schemes::warn_of_improper_faces(&mesh, scheme, diagonals.as_ref())
         .map_err(|error| error.in_file(&arguments.mesh))?;
-    let (refined, level, figures) = refine(mesh, diagonals.as_ref(), arguments)
+    let (refined, level, figures) = refine(mesh, scheme, diagonals.as_ref(), arguments)
         .map_err(|error| error.in_file(&arguments.mesh))?;
     write::atomically(&arguments.output, |out| match extension.as_str() {
         "vtu" => write::vtu::write(&refined, out),
@@ -110,11 +129,12 @@ pub fn run(arguments: &Arguments) -> Result<()> {
 
 fn refine(
     mesh: SolidMesh,
+    scheme: Scheme,
     diagonals: Option<&DiagonalLists>,
     arguments: &Arguments,
 ) -> Result<(SolidMesh, Level, Figures)> {
     check::require_sound_connectivity(&mesh)?;
-    let mut level = Level::of_scheme(&mesh, arguments.scheme, diagonals)?;
+    let mut level = Level::of_scheme(&mesh, scheme, diagonals)?;
     level.require_levels(arguments.levels)?;
     let format = match arguments.fraction_bits {
         Some(fraction_bits) => Format { fraction_bits },

@@ -10,12 +10,15 @@ pub mod features;
 pub mod gmsh;
 pub mod motion;
 pub mod obj;
+pub mod obj_tags;
+pub mod off;
 pub mod vtu;
 pub(crate) mod words;
 
 use crate::error::{Error, Result};
 use crate::mesh::SolidMesh;
 use crate::refine::DiagonalLists;
+use crate::surface::SurfaceMesh;
 use obj::Model;
 use std::path::Path;
 
@@ -67,6 +70,45 @@ pub fn diagonals(file: Option<&Path>, mesh: &SolidMesh) -> Result<Option<Diagona
         diagonals::read(&bytes(file)?, &mesh.cells).map_err(|error| error.in_file(file))
     };
     file.map(read).transpose()
+}
+
+/// Reads a control mesh in the format that the file's extension names, with its crease tags, and
+/// adds the features of a feature file to it.
+pub fn surface_with_features(file: &Path, features: Option<&Path>) -> Result<SurfaceMesh> {
+    let mut mesh = surface(file)?;
+    if let Some(features) = features {
+        let more = features::read(&bytes(features)?, mesh.points.len())
+            .map_err(|error| error.in_file(features))?;
+        mesh.features.creases.extend(more.creases);
+        mesh.features.corners.extend(more.corners);
+        mesh.features.normalise();
+    }
+    Ok(mesh)
+}
+
+/// Reads a control mesh in the format that the file's extension names.
+pub fn surface(file: &Path) -> Result<SurfaceMesh> {
+    let read = match extension(file).as_str() {
+        "obj" => |bytes: &[u8]| {
+            let model = obj::read(bytes)?;
+            let (features, notes) = obj_tags::read(bytes, model.points.len())?;
+            Ok(SurfaceMesh {
+                points: model.points,
+                faces: model.faces,
+                features,
+                notes,
+            })
+        },
+        "off" => off::read,
+        other => {
+            return Err(
+                Error::new(format!("no reader of control meshes for \".{other}\" files"))
+                    .advise("control meshes of surfaces are read from Wavefront .obj and .off; for a cage of cells choose a scheme of solids")
+                    .in_file(file),
+            );
+        }
+    };
+    read(&bytes(file)?).map_err(|error| error.in_file(file))
 }
 
 /// Reads a model in the format that the file's extension names.

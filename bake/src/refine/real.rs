@@ -1,6 +1,9 @@
 //! Weighted sums of points in double precision, not held to any grid.
 
-use octruss::blend::{Blend, NeighbourWeight};
+use octruss::blend::{Blend, IrrationalWeight, NeighbourWeight, WEIGHT_BITS};
+
+/// One, in the units of an irrational weight.
+pub(super) const WEIGHT_ONE: f64 = (1_u64 << WEIGHT_BITS) as f64;
 
 /// Blends points of real numbers; irrational weights are taken in double precision, not as the
 /// device rounds them.
@@ -22,6 +25,12 @@ impl Blend for RealBlend {
     fn add_sum(&self, sum: &mut [f64; 3], weight: i64, other: &[f64; 3]) {
         for (total, value) in sum.iter_mut().zip(other) {
             *total += weight as f64 * value;
+        }
+    }
+
+    fn add_irrational(&self, sum: &mut [f64; 3], weight: IrrationalWeight, point: &[f64; 3]) {
+        for (total, value) in sum.iter_mut().zip(point) {
+            *total += weight.real * WEIGHT_ONE * value;
         }
     }
 

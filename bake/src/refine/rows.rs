@@ -3,8 +3,8 @@
 //! One level's matrix comes out of core's own rules, run over rows instead of points. A product
 //! of matrices is formed only for the rows that somebody needs ([`compose`]).
 
-use super::real::real_weight;
-use octruss::blend::{Blend, NeighbourWeight};
+use super::real::{WEIGHT_ONE, real_weight};
+use octruss::blend::{Blend, IrrationalWeight, NeighbourWeight};
 
 /// A linear combination: columns with their weights. Columns of a finished row ascend.
 pub type Row = Vec<(u32, f64)>;
@@ -30,6 +30,10 @@ impl Blend for RowBlend {
 
     fn add_sum(&self, sum: &mut Row, weight: i64, other: &Row) {
         add_scaled(sum, weight as f64, other);
+    }
+
+    fn add_irrational(&self, sum: &mut Row, weight: IrrationalWeight, point: &Row) {
+        add_scaled(sum, weight.real * WEIGHT_ONE, point);
     }
 
     fn divide(&mut self, sum: &Row, denominator: i64) -> Row {

@@ -4,6 +4,7 @@
 //! complete, so that nobody ever sees half of it and a failure leaves what was there before.
 
 pub mod obj;
+pub mod off;
 pub mod vtu;
 
 use crate::error::{Error, Result};

@@ -1,0 +1,126 @@
+//! `refine` of surfaces end to end.
+
+mod common;
+
+use common::{Folder, octruss};
+use octruss_bake::read;
+use predicates::str::contains;
+
+/// The unit cube as six quads, with one crease tag as OpenSubdiv writes it.
+const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+    f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+/// Catmull and Clark's rules by hand: a corner of the cube goes to (n - 2)/n of itself and 1/9 of
+/// its three neighbours and three face points each: from 0 to (3 * 1/9 * ... ) = 2/9; an edge point
+/// of the edge along x at y = z = 0 to (1/2, 1/8, 1/8).
+#[test]
+fn catmull_clark_of_a_cube() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.obj", CUBE);
+    octruss()
+        .args(["refine", "--scheme", "catmull-clark", "-o"])
+        .arg(folder.path("fine.obj"))
+        .arg(&cube)
+        .assert()
+        .success()
+        .stdout("26 vertices, 24 faces\n");
+    let fine = read::surface(&folder.path("fine.obj")).unwrap();
+    // 1/3 own + (1 neighbour + 1/2 + 1/2 of two face points) / 9 along each axis.
+    let corner = fine.points[0];
+    assert!(
+        corner.iter().all(|x| (x - 2.0 / 9.0).abs() < 1e-15),
+        "{corner:?}"
+    );
+    assert_eq!(fine.points[8], [0.5, 0.125, 0.125]);
+    assert!(fine.faces.iter().all(|face| face.len() == 4));
+}
+
+/// Limits by hand: the limit of a cube's corner after one level, from the mask
+/// (n^2 p + 4 sum(e) + sum(f)) / (n (n + 5)) with p = 2/9, e = (1/2, 1/8, 1/8), f = (1/2, 1/2, 0):
+/// (2 + 4 * 3/4 + 1) / 24 = 1/4.
+#[test]
+fn limits_ask_for_quads() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.obj", CUBE);
+    octruss()
+        .args(["refine", "--scheme", "catmull-clark", "--limit", "-o"])
+        .arg(folder.path("fine.off"))
+        .arg(&cube)
+        .assert()
+        .success();
+    let fine = read::surface(&folder.path("fine.off")).unwrap();
+    assert!(fine.points[0].iter().all(|x| (x - 0.25).abs() < 1e-15));
+    let pyramid = folder.write(
+        "pyramid.off",
+        "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n",
+    );
+    octruss()
+        .args(["refine", "--scheme", "catmull-clark", "--levels", "0"])
+        .args(["--limit", "-o"])
+        .arg(folder.path("none.off"))
+        .arg(&pyramid)
+        .assert()
+        .failure()
+        .stderr(contains("pyramid.off"))
+        .stderr(contains("refine once first"));
+    assert!(!folder.path("none.off").exists());
+}
+
+/// A crease tag keeps an edge straight: its midpoint lies halfway.
+#[test]
+fn crease_tags_are_read() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.obj", format!("{CUBE}t crease 2/1/0 0 1 10\n"));
+    octruss()
+        .args(["refine", "--scheme", "catmull-clark", "--numeric", "fixed"])
+        .args(["--fraction-bits", "20", "-o"])
+        .arg(folder.path("fine.obj"))
+        .arg(&cube)
+        .assert()
+        .success()
+        .stdout(contains("20 fraction bits"));
+    let fine = read::surface(&folder.path("fine.obj")).unwrap();
+    assert_eq!(fine.points[8], [0.5, 0.0, 0.0]);
+}
+
+#[test]
+fn every_scheme_is_reachable_and_refuses_what_it_does_not_take() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.obj", CUBE);
+    let tetrahedron = folder.write(
+        "tetrahedron.off",
+        "OFF 4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n",
+    );
+    for (scheme, figures) in [
+        ("loop", "10 vertices, 16 faces\n"),
+        ("loop-warren", "10 vertices, 16 faces\n"),
+        ("sqrt3", "8 vertices, 12 faces\n"),
+        ("butterfly", "10 vertices, 16 faces\n"),
+        ("butterfly-modified", "10 vertices, 16 faces\n"),
+        ("doo-sabin", "12 vertices, 14 faces\n"),
+        ("catmull-clark", "14 vertices, 12 faces\n"),
+    ] {
+        octruss()
+            .args(["refine", "--scheme", scheme, "-o"])
+            .arg(folder.path("out.off"))
+            .arg(&tetrahedron)
+            .assert()
+            .success()
+            .stdout(figures);
+    }
+    for scheme in [
+        "loop",
+        "loop-warren",
+        "sqrt3",
+        "butterfly",
+        "butterfly-modified",
+    ] {
+        octruss()
+            .args(["refine", "--scheme", scheme, "-o"])
+            .arg(folder.path("none.off"))
+            .arg(&cube)
+            .assert()
+            .failure()
+            .stderr(contains("triangulate the mesh"));
+    }
+}
