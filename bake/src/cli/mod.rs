@@ -3,6 +3,7 @@
 mod any_scheme;
 mod bake;
 mod deform;
+mod forms;
 mod info;
 mod poses;
 mod progress;
@@ -10,6 +11,7 @@ mod refine;
 mod refine_surface;
 mod scheme;
 mod source;
+mod volume;
 
 use clap::{Parser, Subcommand};
 use octruss_bake::error::{Error, Result};
@@ -38,6 +40,8 @@ enum Command {
     Bake(bake::Arguments),
     Deform(deform::Arguments),
     Poses(poses::Arguments),
+    Volume(volume::Arguments),
+    Forms(forms::Arguments),
 }
 
 /// Runs the command that the process was started with.
@@ -48,6 +52,8 @@ pub fn run() -> ExitCode {
         Command::Bake(arguments) => bake::run(&arguments),
         Command::Deform(arguments) => deform::run(&arguments),
         Command::Poses(arguments) => poses::run(&arguments),
+        Command::Volume(arguments) => volume::run(&arguments),
+        Command::Forms(arguments) => forms::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

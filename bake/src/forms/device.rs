@@ -193,24 +193,38 @@ impl DeviceForm {
     }
 
     /// How far the device's volume can be from the form's, in cubes of the coordinates' last place,
-    /// for poses whose differences to the base are at most `reach` last places.
+    /// for poses whose differences to the base are at most `reach` last places along each axis.
     ///
-    /// A determinant of numbers at most `m` whose each is off by at most `e` is off by at most
-    /// `6 ((m + e)^3 - m^3)`, and is itself at most `6 m^3`.
+    /// A determinant has six products of one number of each axis. It is at most 6 times the product of
+    /// their limits, and numbers that are off by a half each change it by at most 6 times what the
+    /// product grows by when the limits grow by a half.
     #[must_use]
-    pub fn volume_bound(&self, reach: f64) -> f64 {
+    pub fn volume_bound(&self, reach: [f64; 3]) -> f64 {
         let step = 2.0_f64.powi(i32::try_from(self.difference_shift).unwrap_or_default());
-        let m = reach / step;
+        let product = |more: f64| reach.iter().map(|axis| axis / step + more).product::<f64>();
         let weights: f64 = self
             .weights
             .iter()
             .map(|&weight| f64::from(weight).abs())
             .sum();
-        let from_differences = weights * 6.0 * ((m + 0.5).powi(3) - m.powi(3));
-        let from_weights = self.rounding * 6.0 * m.powi(3);
+        let from_differences = weights * 6.0 * (product(0.5) - product(0.0));
+        let from_weights = self.rounding * 6.0 * product(0.0);
         let from_result = 0.5 * 2.0_f64.powi(i32::try_from(self.volume_shift).unwrap_or_default());
         let unit = step.powi(3) * 2.0_f64.powi(-self.weight_bits);
         (from_differences + from_weights + from_result) * unit
+    }
+
+    /// The greatest differences to the base along each axis, in last places: the reach of a pose.
+    #[must_use]
+    pub fn reach(&self, pose: &[[i32; 3]]) -> [f64; 3] {
+        let at = |point: &u16| pose.get(usize::from(*point)).copied().unwrap_or_default();
+        let base = self.points.first().map(at).unwrap_or_default();
+        [0, 1, 2].map(|axis| {
+            let own = self.points.iter().map(|point| f64::from(at(point)[axis]));
+            own.fold(0.0, |most, own| {
+                (own - f64::from(base[axis])).abs().max(most)
+            })
+        })
     }
 }
 

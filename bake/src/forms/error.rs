@@ -71,6 +71,27 @@ pub enum FormError {
     },
 }
 
+impl FormError {
+    /// The same with other names for the vertices.
+    #[must_use]
+    pub fn named(self, name: impl Fn(usize) -> usize) -> Self {
+        let both = |edge: [usize; 2]| edge.map(&name);
+        match self {
+            Self::Open { edge } => Self::Open { edge: both(edge) },
+            Self::NonManifold { edge } => Self::NonManifold { edge: both(edge) },
+            Self::Orientation { edge } => Self::Orientation { edge: both(edge) },
+            Self::VertexFans { vertex, edge } => Self::VertexFans {
+                vertex: name(vertex),
+                edge: both(edge),
+            },
+            Self::LoneVertex { vertex } => Self::LoneVertex {
+                vertex: name(vertex),
+            },
+            other => other,
+        }
+    }
+}
+
 impl fmt::Display for FormError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

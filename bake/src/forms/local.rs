@@ -6,7 +6,7 @@ use super::scheme::{Row, Scheme};
 
 /// The control points of each of a facet's four children as rows over the facet's own; the last
 /// child keeps the irregular place.
-pub(crate) type Children<F> = [Vec<Row<F>>; 4];
+pub type Children<F> = [Vec<Row<F>>; 4];
 
 /// The children of a facet of this valence.
 ///
@@ -14,7 +14,7 @@ pub(crate) type Children<F> = [Vec<Row<F>>; 4];
 ///
 /// [`FormError::NotExact`] if the weights do not lie in the field, [`FormError::Valence`] if there
 /// is no such facet.
-pub(crate) fn children<F: Field>(scheme: Scheme, valence: usize) -> Result<Children<F>, FormError> {
+pub fn children<F: Field>(scheme: Scheme, valence: usize) -> Result<Children<F>, FormError> {
     if !(3..=MAX_VALENCE).contains(&valence) {
         return Err(FormError::Valence { valence });
     }

@@ -9,10 +9,11 @@
 //! * [`exact`]: the numbers, double precision or exact ones of Q(sqrt d).
 //! * [`mesh`]: the connectivity of closed surfaces.
 //! * [`scheme`]: refinement, facets and the order of their control points.
-//! * [`form`], [`make`], [`cache`]: forms, how they are found, and where they are kept.
+//! * [`form`], [`local`], [`make`], [`cache`]: forms, how they are found, and where they are kept.
 //! * [`surface`], [`moments`], [`target`]: the volume of a whole mesh and its gradient, centroid and
 //!   inertia, and the nearest mesh that encloses a given volume.
 //! * [`control`], [`device`]: the volume as one form over the control points, and in integers.
+//! * [`solid`], [`portrait`]: the surfaces of files, and their picture.
 
 pub mod cache;
 pub mod control;
@@ -20,13 +21,15 @@ pub mod device;
 pub mod error;
 pub mod exact;
 pub mod form;
-mod local;
+pub mod local;
 pub mod make;
 pub mod mesh;
 pub mod moments;
 mod patch;
 mod polynomial;
+pub mod portrait;
 pub mod scheme;
+pub mod solid;
 pub mod surface;
 pub mod target;
 

@@ -82,6 +82,20 @@ pub fn edges_of(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
 /// If there is no frame, a frame lacks vertices that the scene names, or the sheet would have more
 /// pixels than memory holds.
 pub fn contact_sheet(scene: &Scene<'_>, frames: &[Frame], sheet: &Sheet) -> Result<Vec<u8>> {
+    coloured_sheet(scene, &[], frames, sheet)
+}
+
+/// The same with a colour for each triangle: red, green, blue, from 0 to 1. Triangles beyond the
+/// colours have the usual one.
+///
+/// # Errors
+/// As [`contact_sheet`].
+pub fn coloured_sheet(
+    scene: &Scene<'_>,
+    colours: &[[f64; 3]],
+    frames: &[Frame],
+    sheet: &Sheet,
+) -> Result<Vec<u8>> {
     check(scene, frames)?;
     let camera = Camera::new(sheet.view, sheet.tile, frames);
     let columns = columns(sheet, frames.len());
@@ -106,7 +120,9 @@ pub fn contact_sheet(scene: &Scene<'_>, frames: &[Frame], sheet: &Sheet) -> Resu
     for (index, frame) in (0_u32..).zip(frames) {
         let left = MARGIN + index % columns * tile_width;
         let top = MARGIN + index / columns * (tile_height + CAPTION);
-        let tile = painter.tile(scene, frame, &camera).ok_or_else(too_large)?;
+        let tile = painter
+            .tile(scene, colours, frame, &camera)
+            .ok_or_else(too_large)?;
         let place = (left.cast_signed(), top.cast_signed());
         whole.draw_pixmap(
             place.0,

@@ -45,10 +45,16 @@ impl Painter {
     }
 
     /// The finished tile of a frame.
-    pub fn tile(&mut self, scene: &Scene<'_>, frame: &Frame, camera: &Camera) -> Option<Pixmap> {
+    pub fn tile(
+        &mut self,
+        scene: &Scene<'_>,
+        colours: &[[f64; 3]],
+        frame: &Frame,
+        camera: &Camera,
+    ) -> Option<Pixmap> {
         let [r, g, b] = BACKGROUND;
         self.large.fill(Color::from_rgba8(r, g, b, 255));
-        let mut items = triangles(scene, frame, camera);
+        let mut items = triangles(scene, colours, frame, camera);
         items.extend(pieces(scene, frame, camera));
         items.sort_by(|(a, _), (b, _)| a.total_cmp(b));
         for (_, item) in &items {
@@ -113,10 +119,16 @@ fn place(point: Projected) -> (f32, f32) {
 }
 
 /// The model's triangles with their depths and colours.
-fn triangles(scene: &Scene<'_>, frame: &Frame, camera: &Camera) -> Vec<(f64, Item)> {
+fn triangles(
+    scene: &Scene<'_>,
+    colours: &[[f64; 3]],
+    frame: &Frame,
+    camera: &Camera,
+) -> Vec<(f64, Item)> {
     let normals = vertex_normals(scene.triangles, &frame.model);
     let lights = Lights::new(camera);
-    let item = |triangle: &[u32; 3]| {
+    let colours = colours.iter().chain(std::iter::repeat(&MODEL));
+    let item = |(triangle, colour): (&[u32; 3], &[f64; 3])| {
         let corners = triangle.map(|vertex| camera.project(frame.model[vertex as usize]));
         let normal = triangle.iter().fold([0.0; 3], |sum, vertex| {
             add_scaled(sum, 1.0, normals[*vertex as usize])
@@ -124,10 +136,10 @@ fn triangles(scene: &Scene<'_>, frame: &Frame, camera: &Camera) -> Vec<(f64, Ite
         let depth = corners.iter().map(|corner| corner.near).sum::<f64>() / 3.0;
         (
             depth,
-            Item::Triangle(corners, lights.shade(normalised(normal))),
+            Item::Triangle(corners, lights.shade(normalised(normal), *colour)),
         )
     };
-    scene.triangles.iter().map(item).collect()
+    scene.triangles.iter().zip(colours).map(item).collect()
 }
 
 /// The cage's edges in pieces with their depths.
@@ -192,7 +204,7 @@ impl Lights {
         }
     }
 
-    fn shade(&self, normal: Point) -> Color {
+    fn shade(&self, normal: Point, colour: [f64; 3]) -> Color {
         // A surface seen from behind is lit as if it faced the viewer.
         let side = if dot(normal, self.toward_viewer) < 0.0 {
             -1.0
@@ -203,7 +215,7 @@ impl Lights {
         let round = 0.42 + 0.12 * side * dot(normal, self.above);
         let diffuse = round + 0.58 * facing(self.key) + 0.16 * facing(self.fill);
         let gloss = 0.22 * facing(self.half_way).powi(24);
-        let [r, g, b] = MODEL.map(|part| (part * diffuse + gloss).clamp(0.0, 1.0) as f32);
+        let [r, g, b] = colour.map(|part| (part * diffuse + gloss).clamp(0.0, 1.0) as f32);
         Color::from_rgba(r, g, b, 1.0).unwrap_or(Color::BLACK)
     }
 }

@@ -1,5 +1,7 @@
 //! Closed meshes that the tests of forms and volumes share.
 
+#![allow(dead_code, reason = "each test file uses some of the shapes")]
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use num_bigint::BigInt;

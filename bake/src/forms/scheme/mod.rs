@@ -23,16 +23,15 @@ use super::exact::Field;
 use super::mesh::{ClosedMesh, HalfEdge};
 
 /// A surface scheme with a trilinear form.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, clap::ValueEnum)]
 pub enum Scheme {
-    /// Doo and Sabin: quadratic B-splines, polygons of any kind, weights
-    /// `1/4 + 5/(4n)` and `(3 + 2 cos(2 pi i / n)) / (4n)`.
+    /// Doo and Sabin: any polygons; weights 1/4 + 5/(4n) and (3 + 2 cos(2 pi i / n)) / (4n)
     DooSabin,
-    /// Catmull and Clark: cubic B-splines, polygons of any kind, weights of 1978.
+    /// Catmull and Clark: any polygons; weights of 1978
     CatmullClark,
-    /// Loop: box splines, triangles, weights of 1987.
+    /// Loop: triangles; weights of 1987
     Loop,
-    /// Loop's scheme with Warren's weights `3/(8n)`, and `3/16` at valence 3.
+    /// Loop's scheme with Warren's weights: 3/(8n), and 3/16 at n = 3
     LoopWarren,
 }
 
