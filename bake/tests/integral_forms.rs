@@ -192,11 +192,12 @@ fn their_alternating_part_is_the_form() {
         for valence in [3, 5, 7] {
             let a = irregular(scheme, valence);
             let form = real_form(scheme, valence).expect("a form");
+            let at = |i: usize, j: usize, k: usize| a[i][j][k];
             for i in 0..form.size() {
                 for j in i + 1..form.size() {
                     for k in j + 1..form.size() {
-                        let even = a[i][j][k] + a[j][k][i] + a[k][i][j];
-                        let odd = a[i][k][j] + a[j][i][k] + a[k][j][i];
+                        let even = at(i, j, k) + at(j, k, i) + at(k, i, j);
+                        let odd = at(i, k, j) + at(j, i, k) + at(k, j, i);
                         let want = (even - odd) / 3.0;
                         let got = form.get(i, j, k);
                         assert!(
