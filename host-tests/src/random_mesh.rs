@@ -22,15 +22,19 @@ pub struct Limits {
     pub vertices: usize,
     /// Most levels.
     pub levels: u32,
+    /// Whether tagged triangles beside the boundary may occur.
+    pub sheets: bool,
 }
 
 impl Default for Limits {
-    /// What all runs use that do not say otherwise: six cells, three levels, 1000 vertices.
+    /// What all runs use that do not say otherwise: six cells, three levels, 1000 vertices,
+    /// everything that may occur.
     fn default() -> Self {
         Self {
             cells: 6,
             vertices: 1000,
             levels: 3,
+            sheets: true,
         }
     }
 }
@@ -100,7 +104,9 @@ pub fn random_solid(rng: &mut ChaCha8Rng, limits: &Limits) -> Solid {
         // A vertex that no cell uses.
         solid.vertex_count += 1;
     }
-    add_sheets(rng, &mut solid);
+    if limits.sheets {
+        add_sheets(rng, &mut solid);
+    }
     add_features(rng, &mut solid);
     shuffle(rng, &solid)
 }

@@ -296,6 +296,7 @@ fn masks_and_sums_are_exact() {
         cells: 4,
         vertices: 300,
         levels: 2,
+        sheets: true,
     };
     let mut rows = 0;
     for seed in 0..40 {
