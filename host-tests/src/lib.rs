@@ -18,6 +18,7 @@
 //!   [`surface_subject`] and [`surface_rows`] drive the crate under test on them.
 //! - [`reference_volume`] is the enclosed volume written again, in integers of any length;
 //!   [`random_volume`] draws its forms and poses.
+//! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
 
 pub mod box_spline;
 pub mod box_spline_cases;
@@ -27,6 +28,7 @@ pub mod distance;
 pub mod equality;
 pub mod local;
 pub mod meshes;
+pub mod qemu;
 pub mod random_bundle;
 pub mod random_mesh;
 pub mod random_surface;

@@ -1,2 +1,64 @@
-//! Runs the jobs of octruss.
-fn main() {}
+//! Sets a machine up for octruss and runs its jobs: `cargo xtask --help`.
+//!
+//! This program compiles in seconds and only starts others (cargo, rustup, the system's package
+//! manager); what computes lives in the packages that it builds and runs.
+
+mod command;
+mod image_check;
+mod jobs;
+mod setup;
+mod steps;
+mod workspace;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The jobs of octruss. Each installs first what it needs and says so.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version)]
+struct Arguments {
+    #[command(subcommand)]
+    job: Job,
+}
+
+#[derive(Subcommand)]
+enum Job {
+    /// Installs what is missing: Rust targets and components, the emulator
+    Setup,
+    /// Bakes the example finger, bends it on an emulated Cortex-M4 and checks every bit
+    Demo,
+    /// Runs the tests: on the host, then on emulated Cortex-M4 and Cortex-M7 processors
+    Test,
+    /// Everything that must hold before a change is accepted
+    Ci,
+    /// The long proofs: many random cases on the host and on the emulated processors
+    Verify {
+        /// How many random cases; one in ten is damaged on purpose
+        #[arg(long, default_value_t = 12_000)]
+        cases: u32,
+        /// The seed of the first case; the others follow
+        #[arg(long, default_value_t = 0)]
+        seed: u32,
+    },
+    /// Instructions a tap on the emulated processors, beside a float loop
+    Bench,
+}
+
+fn main() -> ExitCode {
+    let done = match Arguments::parse().job {
+        Job::Setup => setup::run(),
+        Job::Demo => jobs::demo(),
+        Job::Test => jobs::test(),
+        Job::Ci => jobs::ci(),
+        Job::Verify { cases, seed } => jobs::verify(cases, seed),
+        Job::Bench => jobs::bench(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Case files: how a host asks for core's results and how they come back.
+//!
+//! The image `conformance` reads the file `cases.bin` and writes `results.bin`. The host runs the
+//! very same function ([`run`]) on the same cases with memory of the same size ([`Memory`]), so
+//! its results must be equal in every word, errors included.
+//!
+//! Both files are words: unsigned 32-bit numbers, little-endian. Signed numbers are in two's
+//! complement. Every part tells its own length, so a reader can pass over what it does not know.
+//!
+//! # Cases
+//!
+//! | words | what |
+//! | --- | --- |
+//! | 1 | the letters `OCTC` |
+//! | 1 | [`VERSION`] |
+//! | 1 | number of cases |
+//! | | the cases |
+//!
+//! A case:
+//!
+//! | words | what |
+//! | --- | --- |
+//! | 1 | its kind: [`REFINE`], [`REFINE_OWNED`] or [`APPLY`] |
+//! | 1 | a number that the results repeat |
+//! | 1 | number of words n that follow |
+//! | n | what the kind says: see [`refine`] and [`apply`] |
+//!
+//! # Results
+//!
+//! | words | what |
+//! | --- | --- |
+//! | 1 | the letters `OCTR` |
+//! | 1 | [`VERSION`] |
+//! | 1 | number of cases |
+//! | | the results of each case, in order |
+//!
+//! The results of a case are its number (one word), then sections. A section is a tag, the number
+//! of words n that follow, and these. The last section of a case has the tag [`SECTION_END`] and
+//! four words: a [`Status`] and three details.
+//!
+//! | tag | words |
+//! | --- | --- |
+//! | [`SECTION_END`] | status, three details |
+//! | [`SECTION_CELLS`] | level, then number of elements and CRC-32 of tetrahedra, octahedra, surface triangles, creases and corners at that level |
+//! | [`SECTION_POINTS`] | level, coordinates saturated so far, x y z of each vertex at that level |
+//! | [`SECTION_ROWS`] | coordinates saturated, coordinates of displacements clamped to 16 bits, x y z of each row |
+
+pub mod apply;
+mod guard;
+mod memory;
+pub mod refine;
+mod results;
+
+pub use memory::Memory;
+pub use results::{Results, Sink, Status};
+
+use crc::{CRC_32_ISO_HDLC, Crc};
+
+/// The checksum of lists and messages.
+static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+/// The first word of a case file.
+pub const CASES_MAGIC: u32 = u32::from_le_bytes(*b"OCTC");
+/// The first word of a file of results.
+pub const RESULTS_MAGIC: u32 = u32::from_le_bytes(*b"OCTR");
+/// The version of both files.
+pub const VERSION: u32 = 1;
+/// Words of a file's header.
+pub const FILE_HEADER_WORDS: usize = 3;
+/// Words of a case before what its kind says.
+pub const CASE_HEADER_WORDS: usize = 3;
+/// Words that a case may have behind its header.
+pub const CASE_WORDS_AT_MOST: usize = 2048;
+
+/// Kind of a case: refine a solid in slices.
+pub const REFINE: u32 = 1;
+/// Kind of a case: refine a solid in core's own arenas of a fixed size.
+pub const REFINE_OWNED: u32 = 2;
+/// Kind of a case: open a bundle and apply its table to a pose.
+pub const APPLY: u32 = 3;
+
+/// Tag of the section that ends a case.
+pub const SECTION_END: u32 = 0;
+/// Tag of a section about the cells of a level.
+pub const SECTION_CELLS: u32 = 1;
+/// Tag of a section with the points of a level.
+pub const SECTION_POINTS: u32 = 2;
+/// Tag of a section with rows of a table.
+pub const SECTION_ROWS: u32 = 3;
+
+/// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
+///
+/// Nothing here panics or takes more than `memory`: a case that is malformed, wrong or too large
+/// has results that say so.
+pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut Results<'_, S>) {
+    let done = match kind {
+        REFINE => refine::run(words, &mut memory.refine, results),
+        REFINE_OWNED => refine::run_owned(words, &mut memory.owned, results),
+        APPLY => apply::run(words, &mut memory.refine.points_large, results),
+        _ => Err(Status::Malformed),
+    };
+    results.end(done.err().unwrap_or(Status::Done));
+}
+
+/// Takes things off the front of a case's words.
+struct Words<'a>(&'a [u32]);
+
+impl<'a> Words<'a> {
+    /// The next word.
+    fn word(&mut self) -> Result<u32, Status> {
+        let (&first, rest) = self.0.split_first().ok_or(Status::Malformed)?;
+        self.0 = rest;
+        Ok(first)
+    }
+
+    /// The next word as a length.
+    fn length(&mut self) -> Result<usize, Status> {
+        usize::try_from(self.word()?).map_err(|_| Status::Malformed)
+    }
+
+    /// The next `count` elements of `N` words.
+    fn elements<const N: usize>(&mut self, count: usize) -> Result<&'a [[u32; N]], Status> {
+        let words = count.checked_mul(N).ok_or(Status::Malformed)?;
+        let (taken, rest) = self.0.split_at_checked(words).ok_or(Status::Malformed)?;
+        self.0 = rest;
+        Ok(taken.as_chunks().0)
+    }
+
+    /// The next `count` points: raw bits of x, y and z.
+    fn points(&mut self, count: usize) -> Result<&'a [[i32; 3]], Status> {
+        use zerocopy::{FromBytes, IntoBytes};
+        let words: &[[u32; 3]] = self.elements(count)?;
+        // The same size and alignment, so this is never refused.
+        <[[i32; 3]]>::ref_from_bytes(words.as_bytes()).map_err(|_| Status::Malformed)
+    }
+
+    /// Nothing may be left.
+    fn finish(self) -> Result<(), Status> {
+        if self.0.is_empty() {
+            Ok(())
+        } else {
+            Err(Status::Malformed)
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Runs the firmware's images on emulated processors. `cargo xtask` calls it; it expects the
+//! images to be built.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use octruss_host_tests::qemu::demo::{self, Example, Summary};
+use octruss_host_tests::qemu::judge::judge;
+use octruss_host_tests::qemu::{Machine, Run, image};
+
+/// The processors that every job runs on.
+const MACHINES: [Machine; 2] = [Machine::Mps2An386, Machine::Mps2An500];
+
+/// The shift of the instruction clock at which counts are exact.
+const EXACT_SHIFT: u8 = 7;
+
+/// Runs the firmware's images on emulated processors
+#[derive(Parser)]
+struct Arguments {
+    #[command(subcommand)]
+    job: Job,
+}
+
+#[derive(Subcommand)]
+enum Job {
+    /// Holds core on the processors, core on the host and the reference against one another
+    Conformance {
+        /// How many random cases
+        #[arg(long, default_value_t = 400)]
+        cases: u32,
+        /// The first seed; the others follow
+        #[arg(long, default_value_t = 0)]
+        seed: u32,
+        /// Where the case files go
+        #[arg(long)]
+        directory: PathBuf,
+    },
+    /// Plays the demo, checks every coordinate and draws the picture
+    Demo {
+        /// Where finger.oct and finger.poses are, and where the picture goes
+        #[arg(long)]
+        directory: PathBuf,
+        /// The cage
+        #[arg(long)]
+        cage: PathBuf,
+        /// The model
+        #[arg(long)]
+        model: PathBuf,
+    },
+    /// Prints instructions a tap
+    Bench,
+}
+
+fn main() -> ExitCode {
+    let passed = match Arguments::parse().job {
+        Job::Conformance {
+            cases,
+            seed,
+            directory,
+        } => conformance(cases, seed, directory),
+        Job::Demo {
+            directory,
+            cage,
+            model,
+        } => play(directory, cage, model),
+        Job::Bench => bench(),
+    };
+    match passed {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn conformance(cases: u32, seed: u32, directory: PathBuf) -> Result<bool, demo::Failure> {
+    let found = judge(&MACHINES, &image("conformance"), &directory, seed, cases)?;
+    println!("{cases} random cases, seeds from {seed}");
+    println!("  host: {}", found.host);
+    for (machine, verdict) in &found.machines {
+        println!("  {} ({}): {verdict}", machine.processor(), machine.name());
+    }
+    Ok(found.is_equal())
+}
+
+fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo::Failure> {
+    let example = Example::read(&directory)?;
+    let picture = directory.join("finger.png");
+    let mut played = Vec::new();
+    for machine in MACHINES {
+        let processor = machine.processor();
+        println!(
+            "The demo runs on an emulated {processor} ({}).",
+            machine.name()
+        );
+        // The first run's log is shown; the others say the same.
+        let is_first = played.is_empty();
+        let run = demo::play(&example, machine, &image("demo"), &directory, |message| {
+            if is_first {
+                println!("  {:5} {}", message.level, message.text);
+            }
+        })?;
+        if is_first {
+            demo::draw(&example, &run, &cage, &model, &picture)?;
+        }
+        played.push(run);
+    }
+    let summary = Summary {
+        cells: demo::cells(&cage)?,
+        taps: example.taps(),
+        played: &played,
+        picture,
+    };
+    println!("\n{summary}");
+    Ok(summary.mismatches() == 0)
+}
+
+fn bench() -> Result<bool, demo::Failure> {
+    for machine in MACHINES {
+        println!(
+            "{} ({}), instructions, exact:",
+            machine.processor(),
+            machine.name()
+        );
+        let run = Run::new(machine, image("bench")).instruction_shift(EXACT_SHIFT);
+        run.on_message(|message| println!("  {}", message.text))
+            .run()?;
+    }
+    Ok(true)
+}

@@ -1,0 +1,278 @@
+//! The jobs: each is a list of steps that start cargo or one of this workspace's programs.
+
+use std::path::Path;
+
+use crate::command::{Failure, Program};
+use crate::image_check;
+use crate::setup::{self, Need};
+use crate::steps::Steps;
+use crate::workspace::{self, CORE_TARGETS, IMAGE_TARGET};
+
+/// The example that `demo` plays.
+const CAGE: &str = "models/finger.msh";
+const MODEL: &str = "models/finger.obj";
+const MOTION: &str = "models/finger-motion.csv";
+const LEVELS: &str = "2";
+const UNIT: &str = "mm";
+
+/// Random cases of `test`; `verify` takes more.
+const TEST_CASES: u32 = 1_000;
+
+/// Bakes the example, bends it on an emulated processor, checks every bit.
+pub fn demo() -> Result<(), Failure> {
+    setup::ensure(&[Need::Targets, Need::Emulator])?;
+    bake_example()?;
+    build_images()?;
+    play_example()
+}
+
+/// Runs the tests on the host and on the emulated processors.
+pub fn test() -> Result<(), Failure> {
+    let mut steps = Steps::default();
+    test_steps(&mut steps)?;
+    steps.print_times();
+    println!("\nAll tests passed.");
+    Ok(())
+}
+
+fn test_steps(steps: &mut Steps) -> Result<(), Failure> {
+    steps.step("set up", || {
+        setup::ensure(&[Need::Targets, Need::LlvmTools, Need::Emulator])
+    })?;
+    steps.step("tests on the host", || {
+        Program::cargo().args(["test"]).run()?;
+        Program::cargo()
+            .args(["test", "--package", "octruss-firmware", "--lib"])
+            .run()
+    })?;
+    steps.step("bake the example", bake_example)?;
+    steps.step("build the images", build_images)?;
+    steps.step("the emulator's runner", || {
+        let test = [
+            "test",
+            "--package",
+            "octruss-host-tests",
+            "--test",
+            "emulator",
+        ];
+        with_images(Program::cargo().args(test).args(["--", "--ignored"]))?.run()
+    })?;
+    steps.step("conformance of the emulated processors", || {
+        conformance(Build::Debug, TEST_CASES, 0)
+    })?;
+    steps.step("the apply path's image", || {
+        image_check::run(&workspace::images()?)
+    })
+}
+
+/// Everything that must hold before a change is accepted.
+pub fn ci() -> Result<(), Failure> {
+    let mut steps = Steps::default();
+    steps.step("set up everything", setup::run)?;
+    steps.step("formatting", || {
+        Program::cargo().args(["fmt", "--all", "--check"]).run()
+    })?;
+    steps.step("core for every target", || {
+        CORE_TARGETS.iter().try_for_each(|target| {
+            let build = ["build", "--package", "octruss", "--target", target];
+            Program::cargo().args(build).run()
+        })
+    })?;
+    test_steps(&mut steps)?;
+    steps.step("the demo", play_example)?;
+    steps.step("lints", || {
+        // The default members are what builds for the host; the firmware's library does too.
+        lint(&["--all-targets"])?;
+        lint(&[
+            "--package",
+            "octruss-firmware",
+            "--lib",
+            "--profile",
+            "test",
+        ])?;
+        with_example(Program::cargo().args([
+            "clippy",
+            "--package",
+            "octruss-firmware",
+            "--lib",
+            "--bins",
+            "--target",
+            IMAGE_TARGET,
+        ]))?
+        .args(["--", "--deny", "warnings"])
+        .run()
+    })?;
+    steps.step("documentation", || {
+        document(&["--no-deps"])?;
+        document(&[
+            "--no-deps",
+            "--package",
+            "octruss-firmware",
+            "--lib",
+            "--target",
+            IMAGE_TARGET,
+        ])
+    })?;
+    steps.print_times();
+    println!("\nEverything holds.");
+    Ok(())
+}
+
+/// The long proofs.
+pub fn verify(cases: u32, seed: u32) -> Result<(), Failure> {
+    let mut steps = Steps::default();
+    steps.step("set up", || {
+        setup::ensure(&[Need::Targets, Need::LlvmTools, Need::Emulator])
+    })?;
+    steps.step("bake the example", bake_example)?;
+    steps.step("build the images", build_images)?;
+    steps.step(
+        "random cases on the host and the emulated processors",
+        || conformance(Build::Release, cases, seed),
+    )?;
+    steps.print_times();
+    Ok(())
+}
+
+/// Instructions a tap.
+pub fn bench() -> Result<(), Failure> {
+    setup::ensure(&[Need::Targets, Need::Emulator])?;
+    bake_example()?;
+    build_images()?;
+    device(Build::Debug, &["bench"])
+}
+
+/// How a program of the host is built.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Build {
+    Debug,
+    Release,
+}
+
+/// Bakes the example into the directory that the images take it from.
+fn bake_example() -> Result<(), Failure> {
+    let directory = workspace::example()?;
+    std::fs::create_dir_all(&directory)
+        .map_err(|error| format!("cannot make {}: {error}", directory.display()))?;
+    let bundle = directory.join("finger.oct");
+    let octruss = || {
+        let run = [
+            "run",
+            "--quiet",
+            "--package",
+            "octruss-bake",
+            "--bin",
+            "octruss",
+            "--",
+        ];
+        Program::cargo().args(run)
+    };
+    octruss()
+        .args(["bake", CAGE, "--model", MODEL, "--scheme", "tet-oct"])
+        .args(["--levels", LEVELS, "--unit", UNIT, "--output"])
+        .args([&bundle])
+        .run()?;
+    octruss()
+        .args(["poses", CAGE, "--motion", MOTION, "--bundle"])
+        .args([&bundle])
+        .args(["--output"])
+        .args([directory.join("finger.poses")])
+        .run()
+}
+
+/// Builds all images of the firmware.
+fn build_images() -> Result<(), Failure> {
+    let build = [
+        "build",
+        "--release",
+        "--package",
+        "octruss-firmware",
+        "--bins",
+    ];
+    with_example(
+        Program::cargo()
+            .args(build)
+            .args(["--target", IMAGE_TARGET]),
+    )?
+    .run()
+}
+
+/// Plays the example that has been baked and built.
+fn play_example() -> Result<(), Failure> {
+    let directory = workspace::example()?;
+    let directory = path(&directory)?;
+    let files = ["--cage", CAGE, "--model", MODEL];
+    let [cage, cage_file, model, model_file] = files;
+    device(
+        Build::Debug,
+        &[
+            "demo",
+            "--directory",
+            directory,
+            cage,
+            cage_file,
+            model,
+            model_file,
+        ],
+    )
+}
+
+/// Holds random cases on the emulated processors against host and reference.
+fn conformance(build: Build, cases: u32, seed: u32) -> Result<(), Failure> {
+    let directory = workspace::target()?.join("conformance");
+    let (cases, seed) = (cases.to_string(), seed.to_string());
+    device(
+        build,
+        &[
+            "conformance",
+            "--cases",
+            &cases,
+            "--seed",
+            &seed,
+            "--directory",
+            path(&directory)?,
+        ],
+    )
+}
+
+/// Runs the host's program that runs images.
+fn device(build: Build, arguments: &[&str]) -> Result<(), Failure> {
+    let run = [
+        "run",
+        "--quiet",
+        "--package",
+        "octruss-host-tests",
+        "--bin",
+        "device",
+    ];
+    let mut program = Program::cargo().args(run);
+    if build == Build::Release {
+        program = program.args(["--release"]);
+    }
+    with_images(program.args(["--"]).args(arguments))?.run()
+}
+
+fn lint(selection: &[&str]) -> Result<(), Failure> {
+    let program = Program::cargo().args(["clippy"]).args(selection);
+    program.args(["--", "--deny", "warnings"]).run()
+}
+
+fn document(selection: &[&str]) -> Result<(), Failure> {
+    let program = Program::cargo().args(["doc"]).args(selection);
+    with_example(program.env("RUSTDOCFLAGS", "-D warnings"))?.run()
+}
+
+/// Tells a build of the firmware where the example was baked to.
+fn with_example(program: Program) -> Result<Program, Failure> {
+    Ok(program.env("OCTRUSS_DEMO_DIR", workspace::example()?))
+}
+
+/// Tells a program of the host where the images are.
+fn with_images(program: Program) -> Result<Program, Failure> {
+    Ok(program.env("OCTRUSS_IMAGES", workspace::images()?))
+}
+
+fn path(path: &Path) -> Result<&str, Failure> {
+    path.to_str()
+        .ok_or_else(|| format!("{} is not Unicode", path.display()))
+}
