@@ -16,7 +16,7 @@
 //!   rows in a baker, rationals in a test).
 //! * **Left wing, refine**: [`mesh`] (what a solid is, its boundary, the numbering of new
 //!   vertices), [`surface`] (weights of surface schemes) and [`solid`] (subdivision of solids:
-//!   [`solid::tet_oct`], [`solid::box_spline`]).
+//!   [`solid::tet_oct`], [`solid::box_spline`], [`solid::mixed`]).
 //! * **Right wing, run**: [`bundle`] (a validated view of the baked bytes in flash) and
 //!   [`deform`] (the table and its apply kernel), and [`enclosed`] (the volume inside a smooth
 //!   boundary, and its gradient).

@@ -37,6 +37,10 @@ impl<C, const D: usize> FixedBlend<C, D> {
     pub const fn saturated(&self) -> u32 {
         self.saturated
     }
+
+    pub(super) fn saturation_count(&mut self) -> &mut u32 {
+        &mut self.saturated
+    }
 }
 
 impl<C, const D: usize> Default for FixedBlend<C, D> {

@@ -3,11 +3,14 @@
 //! The topological code of the left wing is written once. It says which values enter a new
 //! vertex with which integer weights, and by which integer the sum is divided; a [`Blend`] says
 //! what that means: fixed-point coordinates with one rounding ([`FixedBlend`]), double precision,
-//! sparse rows over the control points, exact rationals.
+//! sparse rows over the control points, exact rationals. A [`GuardedBlend`] adds what schemes need
+//! that round in between.
 
 mod fixed_point;
+mod guarded;
 
 pub use fixed_point::FixedBlend;
+pub use guarded::{Distortion, GUARD_BITS, GuardedBlend};
 
 /// Fraction bits of an irrational weight once it is rounded for the device.
 pub const WEIGHT_BITS: u32 = 30;

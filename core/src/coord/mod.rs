@@ -9,8 +9,8 @@
 //! Every rounding of octruss is `floor(x + 1/2)`: to the nearest, ties toward plus infinity. It
 //! commutes with translations by whole units, so moving all inputs by an integer moves every
 //! result by that integer, to the bit; and its half can be the start value of an accumulator, so
-//! it is free in a kernel. Mirror images may differ by one unit at exact ties. [`round_div`] and
-//! [`round_shift`] are the only places where octruss rounds.
+//! it is free in a kernel. Mirror images may differ by one unit at exact ties. [`round_div`],
+//! [`round_div_wide`] and [`round_shift`] are the only places where octruss rounds.
 
 use fixed::FixedI32;
 use fixed::types::extra::LeEqU32;
@@ -109,6 +109,21 @@ pub const fn round_div(numerator: i64, denominator: i64) -> i64 {
     }
 }
 
+/// [`round_div`] in 128 bits, for sums of values that carry guard bits.
+#[must_use]
+pub const fn round_div_wide(numerator: i128, denominator: i128) -> i128 {
+    if denominator <= 0 {
+        return 0;
+    }
+    match numerator
+        .wrapping_add(denominator >> 1)
+        .checked_div_euclid(denominator)
+    {
+        Some(quotient) => quotient,
+        None => 0,
+    }
+}
+
 /// `floor(value / 2^shift + 1/2)` for a shift of 1 to 62.
 ///
 /// # Scaling and overflow
@@ -149,6 +164,12 @@ pub fn saturate(value: i64, saturated: &mut u32) -> i32 {
     }
 }
 
+/// [`saturate`] for a coordinate that comes from a 128-bit sum.
+pub fn saturate_wide(value: i128, saturated: &mut u32) -> i32 {
+    let bound = if value < 0 { i64::MIN } else { i64::MAX };
+    saturate(i64::try_from(value).unwrap_or(bound), saturated)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -178,6 +199,8 @@ mod tests {
                 want,
                 "{numerator}/{denominator}"
             );
+            let wide = round_div_wide(i128::from(numerator), i128::from(denominator));
+            assert_eq!(wide, i128::from(want), "{numerator}/{denominator}");
         }
         assert_eq!(round_div(5, 0), 0);
         assert_eq!(round_div(5, -2), 0);

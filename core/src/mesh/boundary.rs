@@ -2,7 +2,7 @@
 
 use super::error::{Arena, MeshError};
 use super::view::Solid;
-use super::{OCTAHEDRON_FACES, TETRAHEDRON_FACES};
+use super::{OCTAHEDRON_FACES, TETRAHEDRON_FACES, corners_of};
 
 /// How many faces the scratch of [`boundary_triangles`] must hold: four for each tetrahedron and
 /// eight for each octahedron. `None` if that does not fit.
@@ -44,11 +44,11 @@ pub fn boundary_triangles<'a>(
     let of_tetrahedra = solid
         .tetrahedra
         .iter()
-        .flat_map(|cell| faces_of(cell, &TETRAHEDRON_FACES));
+        .flat_map(|cell| corners_of(cell, &TETRAHEDRON_FACES));
     let of_octahedra = solid
         .octahedra
         .iter()
-        .flat_map(|cell| faces_of(cell, &OCTAHEDRON_FACES));
+        .flat_map(|cell| corners_of(cell, &OCTAHEDRON_FACES));
     for (slot, face) in faces.iter_mut().zip(of_tetrahedra.chain(of_octahedra)) {
         *slot = least_first(face);
     }
@@ -59,16 +59,8 @@ pub fn boundary_triangles<'a>(
     Ok(scratch.get(..kept).unwrap_or_default())
 }
 
-fn faces_of<const N: usize>(
-    cell: &[u32; N],
-    faces: &'static [[usize; 3]],
-) -> impl Iterator<Item = [u32; 3]> {
-    let corner = |slot: usize| cell.get(slot).copied().unwrap_or_default();
-    faces.iter().map(move |face| face.map(corner))
-}
-
 /// The same triangle, with its least corner first.
-fn least_first([a, b, c]: [u32; 3]) -> [u32; 3] {
+pub(super) fn least_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     if b < a && b < c {
         [b, c, a]
     } else if c < a && c < b {
@@ -79,7 +71,7 @@ fn least_first([a, b, c]: [u32; 3]) -> [u32; 3] {
 }
 
 /// The corners in ascending order, for a triangle whose least corner is first.
-fn sorted([a, b, c]: [u32; 3]) -> [u32; 3] {
+pub(super) fn sorted([a, b, c]: [u32; 3]) -> [u32; 3] {
     [a, b.min(c), b.max(c)]
 }
 
@@ -89,7 +81,7 @@ fn sorted([a, b, c]: [u32; 3]) -> [u32; 3] {
     clippy::arithmetic_side_effects,
     reason = "`next` and `start` are at most the length, and `kept` at most `start`"
 )]
-fn keep_single(faces: &mut [[u32; 3]]) -> usize {
+pub(super) fn keep_single(faces: &mut [[u32; 3]]) -> usize {
     let mut kept = 0;
     let mut start = 0;
     while start < faces.len() {

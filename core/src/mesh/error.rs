@@ -82,6 +82,22 @@ pub enum Arena {
     Neighbours,
     /// Where the faces around each vertex start.
     FanStarts,
+    /// The order of the hexahedra.
+    HexahedronOrder,
+    /// Quadrilateral faces.
+    QuadFaces,
+    /// Diagonals of quadrilateral faces.
+    QuadDiagonals,
+    /// Triangles of prisms.
+    PrismTriangles,
+    /// Prisms of the refined mesh.
+    Prisms,
+    /// Hexahedra of the refined mesh.
+    Hexahedra,
+    /// Surface quadrilaterals.
+    SurfaceQuads,
+    /// Distortions of the old vertices.
+    Distortions,
 }
 
 /// Why a mesh cannot be refined as it is, or where it is to go.
@@ -126,6 +142,11 @@ pub enum MeshError {
         index: usize,
         /// The two vertices.
         edge: [u32; 2],
+    },
+    /// Triangles of cells lie on a quadrilateral face along both of its diagonals.
+    CrossedDiagonals {
+        /// The face's corners in cyclic order.
+        corners: [u32; 4],
     },
     /// The solid has an element that this scheme does not refine.
     UnsupportedPart {
@@ -241,9 +262,16 @@ impl fmt::Display for Arena {
             Self::Faces => "faces",
             Self::Edges => "edges",
             Self::OctahedronOrder => "octahedron order",
+            Self::HexahedronOrder => "hexahedron order",
+            Self::QuadFaces => "quadrilateral faces",
+            Self::QuadDiagonals => "diagonals of faces",
+            Self::PrismTriangles => "triangles of prisms",
             Self::Tetrahedra => "tetrahedra",
             Self::Octahedra => "octahedra",
+            Self::Prisms => "prisms",
+            Self::Hexahedra => "hexahedra",
             Self::SurfaceTriangles => "surface triangles",
+            Self::SurfaceQuads => "surface quadrilaterals",
             Self::Creases => "creases",
             Self::Corners => "corners",
             Self::InputPoints => "input points",
@@ -264,6 +292,7 @@ impl fmt::Display for Arena {
             Self::CellQueue => "cells in the queue",
             Self::Neighbours => "neighbours",
             Self::FanStarts => "fan starts",
+            Self::Distortions => "distortions",
         })
     }
 }
@@ -307,6 +336,14 @@ impl fmt::Display for MeshError {
                     f,
                     "{part} {index} runs from vertex {a} to {b}, which is no edge of a cell or of a \
                      face"
+                )
+            }
+            Self::CrossedDiagonals {
+                corners: [a, b, c, d],
+            } => {
+                write!(
+                    f,
+                    "triangles of cells lie on the quadrilateral {a} {b} {c} {d} along both diagonals"
                 )
             }
             Self::UnsupportedPart { part } => {

@@ -2,10 +2,7 @@
 
 use super::error::{Arena, MeshError, Part};
 use super::view::Solid;
-use super::{OCTAHEDRON_EDGES, TETRAHEDRON_EDGES};
-
-/// Corner indices of a triangle's edges.
-const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+use super::{OCTAHEDRON_EDGES, TETRAHEDRON_EDGES, TRIANGLE_EDGES, corners_of};
 
 /// How many edges the scratch of [`Numbering::new`] must hold: six for each tetrahedron, twelve
 /// for each octahedron and three for each surface triangle, shared ones counted every time. `None`
@@ -59,8 +56,8 @@ impl<'a> Numbering<'a> {
         let numbering = Self {
             old: solid.vertex_count,
             edges: unique_edges(solid, edges.get_mut(..edges_needed).unwrap_or_default()),
-            octahedra: order(
-                solid,
+            octahedra: order_cells(
+                solid.octahedra,
                 octahedra.get_mut(..octahedra_needed).unwrap_or_default(),
             ),
         };
@@ -166,42 +163,52 @@ fn unique_edges<'a>(solid: &Solid<'_>, arena: &'a mut [[u32; 2]]) -> &'a [[u32; 
         *slot = edge;
     }
     arena.sort_unstable();
+    drop_repetitions(arena, |_| true)
+}
+
+/// Moves the first of each run of equal elements that is to be kept to the front of a sorted list
+/// and returns that front.
+pub(super) fn drop_repetitions<T: Copy + PartialEq>(
+    sorted: &mut [T],
+    is_kept: impl Fn(&T) -> bool,
+) -> &[T] {
     let mut kept = 0_usize;
-    for place in 0..arena.len() {
-        let Some(&edge) = arena.get(place) else { break };
-        let last = kept.checked_sub(1).and_then(|last| arena.get(last));
-        if last == Some(&edge) {
+    for place in 0..sorted.len() {
+        let Some(&element) = sorted.get(place) else {
+            break;
+        };
+        let last = kept.checked_sub(1).and_then(|last| sorted.get(last));
+        if last == Some(&element) || !is_kept(&element) {
             continue;
         }
-        if let Some(slot) = arena.get_mut(kept) {
-            *slot = edge;
+        if let Some(slot) = sorted.get_mut(kept) {
+            *slot = element;
             kept = kept.saturating_add(1);
         }
     }
-    arena.get(..kept).unwrap_or_default()
+    sorted.get(..kept).unwrap_or_default()
 }
 
 fn edges_of<const N: usize>(
     cell: &[u32; N],
     edges: &'static [[usize; 2]],
 ) -> impl Iterator<Item = [u32; 2]> {
-    let corner = |slot: usize| cell.get(slot).copied().unwrap_or_default();
-    edges.iter().map(move |&[a, b]| {
-        let (a, b) = (corner(a), corner(b));
-        [a.min(b), a.max(b)]
-    })
+    corners_of(cell, edges).map(|[a, b]| [a.min(b), a.max(b)])
 }
 
-/// Fills `arena` with the places of the octahedra, sorted by their sorted corners.
-fn order<'a>(solid: &Solid<'_>, arena: &'a mut [u32]) -> &'a [u32] {
+/// Fills `arena` with the places of the cells, sorted by their sorted corners.
+pub(super) fn order_cells<'a, const N: usize>(
+    cells: &[[u32; N]],
+    arena: &'a mut [u32],
+) -> &'a [u32] {
     for (slot, place) in arena.iter_mut().zip(0..) {
         *slot = place;
     }
     arena.sort_unstable_by_key(|&place| {
         let cell = usize::try_from(place)
             .ok()
-            .and_then(|place| solid.octahedra.get(place));
-        let mut corners = cell.copied().unwrap_or_default();
+            .and_then(|place| cells.get(place));
+        let mut corners = cell.copied().unwrap_or([0; N]);
         corners.sort_unstable();
         (corners, place)
     });

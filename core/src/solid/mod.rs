@@ -6,6 +6,7 @@
 //! one numbering, and so that the last level can do without its cells.
 
 pub mod box_spline;
+pub mod mixed;
 pub mod tet_oct;
 
 mod boundary;

@@ -12,6 +12,9 @@
 //! * [`butterfly`]: triangles, through all vertices; the stencil of 1990 and the modified one.
 //! * [`sqrt3`]: triangles, three for each, the square root of 3 a step; uniform and adaptive.
 //!
+//! The weights of the triangle/quadrilateral scheme serve the boundary of
+//! [`solid::mixed`](crate::solid::mixed).
+//!
 //! [`features`] says what boundaries, creases and corners follow.
 
 pub mod butterfly;
@@ -23,6 +26,7 @@ pub mod loop_scheme;
 pub mod loop_weights;
 mod split;
 pub mod sqrt3;
+pub(crate) mod tri_quad_weights;
 
 pub use features::{PointBuffers, Rim, VertexState};
 pub use loop_weights::LoopWeights;

@@ -13,28 +13,28 @@ use crate::mesh::{OCTAHEDRON_EDGES, OCTAHEDRON_FACES, TETRAHEDRON_EDGES};
 
 /// Local vertices of a split tetrahedron: 4 corners, then the midpoints of
 /// [`TETRAHEDRON_EDGES`].
-pub(super) const TETRAHEDRON_VERTICES: usize = 10;
+pub(in crate::solid) const TETRAHEDRON_VERTICES: usize = 10;
 
 /// Local vertices of a split octahedron: 6 corners, the midpoints of [`OCTAHEDRON_EDGES`], and
 /// the centroid.
-pub(super) const OCTAHEDRON_VERTICES: usize = 19;
+pub(in crate::solid) const OCTAHEDRON_VERTICES: usize = 19;
 
 /// The local vertex that is an octahedron's centroid.
-pub(super) const CENTROID: usize = 18;
+pub(in crate::solid) const CENTROID: usize = 18;
 
 /// The four tetrahedra of a tetrahedron: corner `k` of child `i` is the midpoint of `v_i v_k`.
-pub(super) const TETRAHEDRON_TETRAHEDRA: [[usize; 4]; 4] = tetrahedron_tetrahedra();
+pub(in crate::solid) const TETRAHEDRON_TETRAHEDRA: [[usize; 4]; 4] = tetrahedron_tetrahedra();
 
 /// The middle octahedron `(m01, m02, m03, m23, m13, m12)`.
-pub(super) const TETRAHEDRON_OCTAHEDRA: [[usize; 6]; 1] = [[4, 5, 6, 9, 8, 7]];
+pub(in crate::solid) const TETRAHEDRON_OCTAHEDRA: [[usize; 6]; 1] = [[4, 5, 6, 9, 8, 7]];
 
 /// The eight tetrahedra of an octahedron, one for each face `(a, b, c)`:
 /// `(centroid, m_bc, m_ca, m_ab)`.
-pub(super) const OCTAHEDRON_TETRAHEDRA: [[usize; 4]; 8] = octahedron_tetrahedra();
+pub(in crate::solid) const OCTAHEDRON_TETRAHEDRA: [[usize; 4]; 8] = octahedron_tetrahedra();
 
 /// The six octahedra of an octahedron: corner `k` of child `i` is the midpoint of `v_i v_k`,
 /// corner `i` is `v_i`, and the corner opposite is the centroid.
-pub(super) const OCTAHEDRON_OCTAHEDRA: [[usize; 6]; 6] = octahedron_octahedra();
+pub(in crate::solid) const OCTAHEDRON_OCTAHEDRA: [[usize; 6]; 6] = octahedron_octahedra();
 
 /// Figure 5's matrix of a tetrahedron, in 48ths: its diagonal and everything else. (The paper's
 /// text drops the sign of -1/16; its figure has it.)
@@ -46,11 +46,11 @@ const OCTAHEDRON_SMOOTHING: (i64, i64, i64) = (18, 4, 14);
 
 /// Denominator of a refined vertex, for each child cell that meets there: 6 for the linear split
 /// (2 for midpoints, 6 for centroids) times 48 for the smoothing.
-pub(super) const DENOMINATOR: i64 = 6 * 48;
+pub(in crate::solid) const DENOMINATOR: i64 = 6 * 48;
 
 /// What a shape contributes to one of its refined vertices.
 #[derive(Clone, Copy)]
-pub(super) struct Contribution<const CORNERS: usize> {
+pub(in crate::solid) struct Contribution<const CORNERS: usize> {
     /// Weights of the cell's corners, in units of `1 / DENOMINATOR`.
     pub weights: [i64; CORNERS],
     /// Number of the cell's children that meet at the vertex; the weights add up to
@@ -59,14 +59,14 @@ pub(super) struct Contribution<const CORNERS: usize> {
 }
 
 /// A tetrahedron's contributions to its ten refined vertices.
-pub(super) const TETRAHEDRON: [Contribution<4>; TETRAHEDRON_VERTICES] = contributions(
+pub(in crate::solid) const TETRAHEDRON: [Contribution<4>; TETRAHEDRON_VERTICES] = contributions(
     &tetrahedron_split(),
     &TETRAHEDRON_TETRAHEDRA,
     &TETRAHEDRON_OCTAHEDRA,
 );
 
 /// An octahedron's contributions to its nineteen refined vertices.
-pub(super) const OCTAHEDRON: [Contribution<6>; OCTAHEDRON_VERTICES] = contributions(
+pub(in crate::solid) const OCTAHEDRON: [Contribution<6>; OCTAHEDRON_VERTICES] = contributions(
     &octahedron_split(),
     &OCTAHEDRON_TETRAHEDRA,
     &OCTAHEDRON_OCTAHEDRA,

@@ -26,7 +26,7 @@
 //!
 //! Edges of three tetrahedra are where the scheme is not smooth (the paper's appendix says so).
 
-mod masks;
+pub(in crate::solid) mod masks;
 mod points;
 mod scratch;
 mod split;
