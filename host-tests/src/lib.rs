@@ -19,6 +19,9 @@
 //! - [`reference_volume`] is the enclosed volume written again, in integers of any length;
 //!   [`random_volume`] draws its forms and poses.
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
+//! - [`reference_mixed`] is Hakenberg's scheme for mixed solids written again in the same way;
+//!   [`random_mixed`] draws mixed solids, and [`mixed_subject`] drives the crate under test on
+//!   them, over bits and over exact rows.
 
 pub mod box_spline;
 pub mod box_spline_cases;
@@ -28,15 +31,18 @@ pub mod distance;
 pub mod equality;
 pub mod local;
 pub mod meshes;
+pub mod mixed_subject;
 pub mod qemu;
 pub mod random_bundle;
 pub mod random_mesh;
+pub mod random_mixed;
 pub mod random_surface;
 pub mod random_table;
 pub mod random_volume;
 pub mod rational;
 pub mod reference;
 pub mod reference_box_spline;
+pub mod reference_mixed;
 pub mod reference_surface;
 pub mod reference_volume;
 pub mod snapshot;
