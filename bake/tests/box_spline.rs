@@ -114,7 +114,7 @@ fn bundles_record_the_scheme() {
             .assert()
             .success();
         BundleBytes::read(&bundle).unwrap().open().unwrap();
-        // docs/bundle-format.md: the scheme stands at byte 40.
+        // docs/bundle.md: the scheme stands at byte 40.
         let bytes = folder.read(scheme);
         assert_eq!(bytes[40..44], code.to_le_bytes());
     }
