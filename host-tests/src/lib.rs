@@ -1,7 +1,7 @@
 //! The independent f64 reference of octruss and what holds host, devices and
 //! reference against one another.
 //!
-//! - [`reference`] is paper 1 written again, in double precision that is exact by
+//! - [`mod@reference`] is paper 1 written again, in double precision that is exact by
 //!   construction. It shares nothing with the crate that it judges.
 //! - [`meshes`] builds the named meshes that the papers' figures belong to.
 //! - [`rational`] and [`subject`] drive the crate under test on the host: in raw bits between

@@ -18,6 +18,8 @@ pub struct Findings {
     pub floats: Vec<String>,
     /// How many instructions were looked at.
     pub instructions: usize,
+    /// How many functions of the apply path there are.
+    pub apply_functions: usize,
 }
 
 /// Checks the images of a directory.
@@ -29,6 +31,9 @@ pub fn run(images: &Path) -> Result<(), Failure> {
             apply.panics, apply.floats
         ));
     }
+    if apply.apply_functions == 0 {
+        return Err("the compiler has taken the apply path out of its own image".to_owned());
+    }
     let bench = look(&images.join("bench"))?;
     if bench.panics.is_empty() || bench.floats.is_empty() {
         return Err(format!(
@@ -36,8 +41,9 @@ pub fn run(images: &Path) -> Result<(), Failure> {
         ));
     }
     println!(
-        "The image with nothing but the apply path: {} instructions, no panic, no floating point.",
-        apply.instructions
+        "The image with nothing but the apply path: {} functions of it, {} instructions in all, no \
+         panic, no floating point.",
+        apply.apply_functions, apply.instructions
     );
     println!(
         "The same check of the benchmark finds {} symbols of panics and {} of floating point.",
@@ -68,6 +74,7 @@ fn look(image: &Path) -> Result<Findings, Failure> {
 fn judge(symbols: &str, code: &str) -> Findings {
     let mut findings = Findings::default();
     for symbol in symbols.lines() {
+        findings.apply_functions += usize::from(symbol.contains("octruss::deform"));
         if is_panic(symbol) {
             findings.panics.push(symbol.to_owned());
         }
@@ -167,11 +174,11 @@ mod tests {
 
     #[test]
     fn an_image_with_both_is_found_out() {
-        let symbols = "main\ncore::panicking::panic_fmt\n";
+        let symbols = "main\noctruss::deform::table::run\ncore::panicking::panic_fmt\n";
         let code = "00000400 <main>:\n     400:      \tvldr\ts0, [r0]\n     404:      \tbx\tlr\n";
         let findings = judge(symbols, code);
         assert_eq!(findings.panics, ["core::panicking::panic_fmt"]);
         assert_eq!(findings.floats, ["vldr"]);
-        assert_eq!(findings.instructions, 2);
+        assert_eq!((findings.instructions, findings.apply_functions), (2, 1));
     }
 }

@@ -10,6 +10,7 @@ use core::panic::PanicInfo;
 
 use cortex_m_rt::entry;
 use octruss::bundle::Bundle;
+use octruss::deform::Displacement;
 
 /// Bytes of the place where a bundle would be flashed.
 const BUNDLE_BYTES: usize = 4096;
@@ -25,24 +26,53 @@ static FLASH: Flash = Flash([0xff; BUNDLE_BYTES]);
 
 #[entry]
 fn main() -> ! {
-    static mut POSE: [[i32; 3]; POINTS] = [[0; 3]; POINTS];
-    static mut OUT: [[i32; 3]; POINTS] = [[0; 3]; POINTS];
+    static mut POSE: Points = [[0; 3]; POINTS];
+    static mut OUT: Points = [[0; 3]; POINTS];
 
     loop {
         let flash = black_box(FLASH.0.as_slice());
-        let Ok(bundle) = Bundle::new_checked(flash) else {
-            continue;
-        };
-        let Ok(table) = bundle.table::<i32>() else {
-            continue;
-        };
-        let rows = black_box(0..POINTS);
-        let pose = black_box(POSE.as_slice());
-        let saturated = table.apply(rows.clone(), pose, black_box(&mut OUT[..]));
-        black_box((&OUT[..], saturated.ok()));
-        let saturated = table.apply_absolute(rows, pose, black_box(&mut OUT[..]));
-        black_box((&OUT[..], saturated.ok()));
+        if let Ok(bundle) = Bundle::new_checked(flash) {
+            black_box(apply(&bundle, black_box(POSE), black_box(OUT)));
+            black_box(apply_compact(&bundle, black_box(POSE), black_box(OUT)));
+        }
     }
+}
+
+/// A pose or an output of this image.
+type Points = [[i32; 3]; POINTS];
+
+/// All that there is for 32-bit coordinates.
+#[inline(never)]
+fn apply(bundle: &Bundle<'_>, pose: &Points, out: &mut Points) -> Option<u32> {
+    let table = bundle.table::<i32>().ok()?;
+    let rows = black_box(0..POINTS);
+    let displaced = table.apply(rows.clone(), pose, out).ok()?;
+    black_box(&out);
+    let absolute = table.apply_absolute(rows, pose, out).ok()?;
+    black_box(&out);
+    let updated = table
+        .apply_moved(&black_box([true; POINTS]), pose, out)
+        .ok()?;
+    Some(
+        displaced
+            .wrapping_add(absolute)
+            .wrapping_add(updated.saturated),
+    )
+}
+
+/// All that there is for 16-bit displacements.
+#[inline(never)]
+fn apply_compact(bundle: &Bundle<'_>, pose: &Points, out: &mut Points) -> Option<u32> {
+    let table = bundle.compact_table::<i32>().ok()?;
+    let mut memory = [Displacement::default(); POINTS];
+    let displacements = table.displacements(pose, &mut memory).ok()?;
+    let applied = table
+        .apply(black_box(0..POINTS), &displacements, out)
+        .ok()?;
+    black_box(&out);
+    let moved = black_box([true; POINTS]);
+    let updated = table.apply_moved(&moved, &displacements, out).ok()?;
+    Some(applied.wrapping_add(updated.saturated))
 }
 
 /// Never linked, as nothing panics; the language wants it to be there.

@@ -40,7 +40,7 @@ impl Judged {
             0 => Self::damaged(seed),
             1 | 2 => Self::apply(seed),
             3 => Self::refine(seed, REFINE_OWNED, &OWNED_LIMITS),
-            _ => Self::refine(seed, REFINE, &LIMITS),
+            _ => Self::refine(seed, REFINE, &Limits::default()),
         }
     }
 
@@ -105,7 +105,7 @@ impl Judged {
         let mut case = match rng.random_range(0..3) {
             0 => Self::apply(seed),
             1 => Self::refine(seed, REFINE_OWNED, &OWNED_LIMITS),
-            _ => Self::refine(seed, REFINE, &LIMITS),
+            _ => Self::refine(seed, REFINE, &Limits::default()),
         }
         .case;
         // The first words hold the lengths and the first cells, where damage tells most.
@@ -132,15 +132,7 @@ const OWNED_LIMITS: Limits = Limits {
     cells: 2,
     vertices: 192,
     levels: 2,
-    sheets: false,
-};
-
-/// The case files have no list for sheets.
-const LIMITS: Limits = Limits {
-    cells: 6,
-    vertices: 1000,
-    levels: 3,
-    sheets: false,
+    sheets: true,
 };
 
 fn word(number: usize) -> u32 {
