@@ -1,6 +1,7 @@
 //! `octruss volume` and `octruss forms` as a user runs them.
 
 use assert_cmd::Command;
+use octruss_bake::bundle::BundleBytes;
 use predicates::str::contains;
 use std::fs;
 use std::path::Path;
@@ -79,6 +80,54 @@ fn errors_name_file_and_edge_and_write_nothing() {
         .assert()
         .failure()
         .stderr(contains("valence 7"));
+}
+
+/// The finger's volume goes through the bundle's bytes to core's own code.
+#[test]
+fn a_baked_volume_is_what_the_command_prints() {
+    let directory = tempdir().expect("a directory");
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models");
+    let finger = models.join("finger.msh");
+    let bundle = directory.path().join("finger.oct");
+    let mut bake = Command::cargo_bin("octruss").expect("the binary is built");
+    bake.args([
+        "bake",
+        "--volume",
+        "--levels",
+        "1",
+        "--random-poses",
+        "1",
+        "--json",
+    ]);
+    bake.args(["--outside", "nearest", "--model"])
+        .arg(models.join("finger.obj"));
+    bake.arg(&finger).arg("-o").arg(&bundle);
+    bake.assert()
+        .success()
+        .stdout(contains("\"error_estimate\""));
+    let mut volume = Command::cargo_bin("octruss").expect("the binary is built");
+    volume
+        .args(["volume", "--scheme", "loop", "--json"])
+        .arg(&finger);
+    let out = volume.assert().success().get_output().stdout.clone();
+    let want = number(&out, "volume");
+
+    let bytes = BundleBytes::read(&bundle).expect("a file");
+    let bundle = bytes.open().expect("a bundle");
+    let form = bundle
+        .volume_form::<i32>(0)
+        .expect("a sound form")
+        .expect("a form");
+    assert!(bundle.volume_form::<i32>(1).expect("no error").is_none());
+    let mut workspace = vec![[0; 3]; form.workspace_length()];
+    let enclosed = form
+        .volume(bundle.rest_cage(), &mut workspace)
+        .expect("fitting lengths");
+    let fraction_bits = i64::from(bundle.header().fraction_bits.get());
+    let exponent = form.volume_exponent() - 3 * fraction_bits;
+    #[expect(clippy::cast_precision_loss, reason = "about 56 bits")]
+    let got = enclosed.volume as f64 * 2.0_f64.powi(i32::try_from(exponent).expect("small"));
+    assert!((got / want - 1.0).abs() < 1e-6, "{got} {want}");
 }
 
 /// The paper's Y-hat(8, 7, 2) of Doo-Sabin at valence 3: 3324559/2891332800; sorted, the sign of an

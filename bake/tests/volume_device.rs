@@ -3,10 +3,11 @@
 mod forms_support;
 
 use forms_support::{Shape, cubes};
-use octruss::enclosed::VolumeForm;
+use octruss::enclosed::{EnclosedError, VolumeForm};
 use octruss_bake::forms::solid::Enclosure;
 use octruss_bake::forms::{ClosedMesh, ControlForm, DeviceForm, LimitSurface, Scheme};
 use octruss_bake::mesh::Features;
+use zerocopy::IntoBytes;
 
 const BITS: u32 = 20;
 
@@ -102,6 +103,28 @@ fn the_device_keeps_its_bound() {
         }
     }
     println!("greatest error of the volume, relative: {worst:e}");
+}
+
+/// A section gives the parts back, and is refused if a byte is missing, too many or misplaced.
+#[test]
+fn sections_are_read_in_place() {
+    let shape = shape(1);
+    let form = ControlForm::of_surface(&surface(&shape)).unwrap();
+    let device = DeviceForm::new(&form, &bits(&shape)).unwrap();
+    let section = device.section();
+    assert_eq!(section.len(), device.bytes());
+    let mut words = vec![0_u64; section.len().div_ceil(8) + 1];
+    let bytes = words.as_mut_bytes();
+    bytes[..section.len()].copy_from_slice(&section);
+    let open =
+        |bytes| VolumeForm::from_section(bytes, shape.points.len()).map(|form| *form.parts());
+    assert_eq!(open(&bytes[..section.len()]), Ok(device.parts()));
+    let layout = Err(EnclosedError::Layout { place: 0 });
+    assert_eq!(open(&bytes[..section.len() - 1]), layout);
+    assert_eq!(open(&bytes[..=section.len()]), layout);
+    assert_eq!(open(&bytes[..31]), layout);
+    bytes.copy_within(..section.len(), 1);
+    assert_eq!(open(&bytes[1..=section.len()]), layout);
 }
 
 /// With creases the polyhedra of two levels are extrapolated. A cube whose edges are creases and

@@ -63,6 +63,7 @@ impl Layout {
             pair_bits: table.pair_bits,
             volume_shift: table.volume_shift,
             gradient_bits: table.gradient_bits,
+            weight_bits: 0,
         }
     }
 }
@@ -218,6 +219,7 @@ fn unsound_forms_are_refused() {
         pair_bits: 21,
         volume_shift: 40,
         gradient_bits: 0,
+        weight_bits: 0,
     };
     let check = |parts| VolumeForm::new_checked(parts, 5).map(|_| ());
     assert_eq!(check(sound), Ok(()));

@@ -63,6 +63,10 @@ pub struct Arguments {
     /// What to do with model points outside the refined cage
     #[arg(long, value_enum, default_value_t)]
     outside: Outside,
+    /// Also bake the volume that the cage's smooth boundary encloses, as one form over its control
+    /// points; with --boundary loop or loop-warren
+    #[arg(long)]
+    volume: bool,
     /// Where the random poses start from on which the error is measured
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     seed: u64,
@@ -115,6 +119,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         fraction_bits: arguments.fraction_bits,
         unit: arguments.unit.clone(),
         outside: arguments.outside,
+        volume: arguments.volume,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

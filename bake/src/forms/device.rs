@@ -1,6 +1,7 @@
 //! A form in the device's integers.
 
-use octruss::enclosed::{VolumeFormParts, WEIGHT_LIMIT};
+use octruss::enclosed::{VolumeFormParts, VolumeRecord, WEIGHT_LIMIT};
+use zerocopy::IntoBytes;
 
 use super::control::ControlForm;
 use super::error::FormError;
@@ -165,7 +166,33 @@ impl DeviceForm {
             pair_bits: self.pair_bits,
             volume_shift: self.volume_shift,
             gradient_bits: self.gradient_bits,
+            weight_bits: self.weight_bits,
         }
+    }
+
+    /// The bytes of a bundle's section.
+    #[must_use]
+    pub fn section(&self) -> Vec<u8> {
+        let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX).into();
+        let record = VolumeRecord {
+            points: count(self.points.len()),
+            pairs: count(self.pairs.len()),
+            taps: count(self.weights.len()),
+            difference_shift: self.difference_shift.into(),
+            pair_bits: self.pair_bits.into(),
+            volume_shift: self.volume_shift.into(),
+            gradient_bits: self.gradient_bits.into(),
+            weight_bits: self.weight_bits.into(),
+        };
+        [
+            record.as_bytes(),
+            self.weights.as_bytes(),
+            self.pair_starts.as_bytes(),
+            self.pairs.as_bytes(),
+            self.points.as_bytes(),
+            self.thirds.as_bytes(),
+        ]
+        .concat()
     }
 
     /// A device's volume in cubes of the coordinates' last place.
@@ -183,10 +210,11 @@ impl DeviceForm {
         2.0_f64.powi(i32::try_from(shifts).unwrap_or_default() - fine - self.weight_bits)
     }
 
-    /// Bytes in flash: points, pairs, starts, thirds and weights.
+    /// Bytes in flash: the record, weights, starts, pairs, points and thirds.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        2 * self.points.len()
+        size_of::<VolumeRecord>()
+            + 2 * self.points.len()
             + 4 * self.pairs.len()
             + 4 * self.pair_starts.len()
             + 6 * self.weights.len()

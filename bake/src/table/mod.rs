@@ -12,9 +12,11 @@ mod measure;
 pub mod precision;
 pub mod quantise;
 mod report;
+mod volume;
 
 pub use choice::{FormatReport, Request, TableFormat};
 pub use report::{LargestRow, OutsideReport, Report, TapsReport, WeightsReport};
+pub use volume::VolumeReport;
 
 use crate::bundle::{self, Contents, LONGEST_UNIT};
 use crate::check::{self, Volumes};
@@ -61,6 +63,8 @@ pub struct Options {
     pub unit: String,
     /// What to do with points outside.
     pub outside: Outside,
+    /// Also bake the form of the volume that the smooth boundary encloses.
+    pub volume: bool,
     /// How the format of the table is chosen.
     pub request: Request,
     /// Random poses on which the table's error is measured.
@@ -79,6 +83,7 @@ impl Default for Options {
             fraction_bits: None,
             unit: String::new(),
             outside: Outside::Error,
+            volume: false,
             request: Request::default(),
             random_poses: 4,
             seed: 0,
@@ -148,6 +153,15 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         seed: options.seed,
     };
     let (packed, formats) = choose(&material, options.request)?;
+    let mut sections = packed.sections.clone();
+    let volume = if options.volume {
+        let (section, report) =
+            volume::section(cage, options.boundary, format, &rest_cage).map_err(of_cage)?;
+        sections.push(section);
+        Some(report)
+    } else {
+        None
+    };
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,
@@ -156,7 +170,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         levels: options.levels,
         control_points: cage.points.len(),
         rows: model.len(),
-        sections: &packed.sections,
+        sections: &sections,
         cage_checksum: bundle::cage_checksum(cage.points.len(), &cage.cells),
         model_checksum: bundle::model_checksum(model),
     })
@@ -187,6 +201,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         outside,
         formats,
         precision,
+        volume,
     };
     Ok(Baked {
         bundle: bytes,

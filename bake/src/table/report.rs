@@ -2,6 +2,7 @@
 
 use super::precision::{FormPrecision, Precision};
 use super::quantise::{ONE, QuantisedRow};
+use super::volume::VolumeReport;
 use super::{BoundaryRule, FormatReport, Outside, Scheme};
 use crate::error::count;
 use clap::ValueEnum;
@@ -43,6 +44,9 @@ pub struct Report {
     pub formats: Vec<FormatReport>,
     /// Errors of a direct table with weights of 30 fraction bits.
     pub precision: Precision,
+    /// The form of the enclosed volume, if it was baked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume: Option<VolumeReport>,
 }
 
 /// Numbers of taps.
@@ -184,6 +188,23 @@ impl fmt::Display for Report {
                     "            magnitudes of row {row} add up to {magnitude:.6}"
                 )?;
             }
+        }
+        if let Some(volume) = &self.volume {
+            let cube = match unit {
+                "" => String::new(),
+                unit => format!("{unit}^3"),
+            };
+            writeln!(
+                f,
+                "volume      {}{cube} (estimated error {:.1e}); {} taps on {} control points, \
+                 {} bytes, off by at most {:.1e} on a device",
+                volume.volume,
+                volume.error_estimate,
+                volume.taps,
+                volume.control_points,
+                volume.bytes,
+                volume.error_bound
+            )?;
         }
         self.write_outside(f, unit)?;
         self.write_formats(f, unit, step)?;

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::enclosed::EnclosedError;
+
 /// Why a bundle cannot be opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -66,6 +68,8 @@ pub enum BundleError {
         /// The row.
         row: u32,
     },
+    /// A volume form is not sound.
+    Volume(EnclosedError),
     /// A row names a point that the model does not have.
     ModelPoints,
     /// The bundle holds another kind of table than was asked for: for 32-bit coordinates or 16-bit
@@ -117,6 +121,7 @@ impl fmt::Display for BundleError {
                 "the weights of row {row} do not add up to one, or their magnitudes to more than two"
             ),
             Self::Start { row } => write!(f, "the start value of row {row} is too large"),
+            Self::Volume(error) => write!(f, "the bundle's volume form is not sound: {error}"),
             Self::ModelPoints => f.write_str("a row names a point that the model does not have"),
             Self::OtherTable => f.write_str(
                 "the bundle holds another kind of table: bake it again with the --format that the program uses",

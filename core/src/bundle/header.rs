@@ -77,6 +77,9 @@ pub const SECTION_WEIGHTS: u32 = 5;
 pub const SECTION_STARTS: u32 = 6;
 /// [`Section::kind`]: which point of the model each row is.
 pub const SECTION_MODEL_POINTS: u32 = 7;
+/// [`Section::kind`]: the form of an enclosed volume; [`Section::stage`] is the region, 0 for the whole
+/// boundary.
+pub const SECTION_VOLUME: u32 = 8;
 
 /// An entry of the section table, which follows the header: 16 bytes.
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]

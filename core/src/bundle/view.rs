@@ -7,12 +7,13 @@ use zerocopy::FromBytes;
 use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, SCHEME_BOX_SPLINE_AVERAGED, SCHEME_TET_OCT,
-    SECTION_MODEL_POINTS, SECTION_REST_CAGE, Section, VERSION,
+    SECTION_MODEL_POINTS, SECTION_REST_CAGE, SECTION_VOLUME, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
 use crate::coord::Coordinate;
 use crate::deform::{CompactTable, Table};
+use crate::enclosed::VolumeForm;
 
 /// A bundle that has been proved sound, still where it lay.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +24,7 @@ pub struct Bundle<'a> {
     first: StageParts<'a>,
     second: Option<StageParts<'a>>,
     model_points: ModelPoints<'a>,
+    sections: Sections<'a>,
 }
 
 impl<'a> Bundle<'a> {
@@ -79,6 +81,7 @@ impl<'a> Bundle<'a> {
             first,
             second,
             model_points: ModelPoints::new(model_points, rows)?,
+            sections,
         })
     }
 
@@ -168,6 +171,26 @@ impl<'a> Bundle<'a> {
             compact(&self.first, self.rest_cage)?,
             compact(second, rest)?,
         ])
+    }
+
+    /// The form of the volume that a region encloses, 0 for the whole boundary; `None` if none was
+    /// baked. It is proved sound here, not when the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format,
+    /// [`BundleError::Volume`] if the form is not sound.
+    pub fn volume_form<C: Coordinate>(
+        &self,
+        region: u32,
+    ) -> Result<Option<VolumeForm<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_VOLUME, region)? else {
+            return Ok(None);
+        };
+        VolumeForm::from_section(bytes, self.rest_cage.len())
+            .map(Some)
+            .map_err(BundleError::Volume)
     }
 
     fn check_format<C: Coordinate>(&self) -> Result<(), BundleError> {

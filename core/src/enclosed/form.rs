@@ -32,6 +32,8 @@ pub struct VolumeFormParts<'a> {
     pub volume_shift: u32,
     /// Bits by which a gradient is finer than `2^31` of its exact unit: 0 to 60.
     pub gradient_bits: u32,
+    /// A weight of one stands for `2^weight_bits` of these weights. It enters units only.
+    pub weight_bits: i32,
 }
 
 /// A volume form that has been proved sound.
@@ -81,6 +83,27 @@ impl<'a> VolumeForm<'a> {
         self.parts.points
     }
 
+    /// A volume's unit is `2^` this of cubes of the coordinates' last place.
+    #[must_use]
+    pub fn volume_exponent(&self) -> i64 {
+        let parts = &self.parts;
+        let shifts = i64::from(parts.volume_shift)
+            .wrapping_add(i64::from(parts.difference_shift).wrapping_mul(3));
+        shifts.wrapping_sub(i64::from(parts.weight_bits))
+    }
+
+    /// A gradient's unit is `2^` this of squares of the coordinates' last place.
+    #[must_use]
+    pub fn gradient_exponent(&self) -> i64 {
+        let parts = &self.parts;
+        let shifts = i64::from(parts.difference_shift)
+            .wrapping_mul(2)
+            .wrapping_add(31);
+        shifts
+            .wrapping_sub(i64::from(parts.gradient_bits))
+            .wrapping_sub(i64::from(parts.weight_bits))
+    }
+
     /// Length of the workspace: the region's points without its base.
     #[must_use]
     pub const fn workspace_length(&self) -> usize {
@@ -89,8 +112,8 @@ impl<'a> VolumeForm<'a> {
 
     /// The enclosed volume of a pose, which holds the positions of all control points.
     ///
-    /// Its unit is `2^(volume_shift + 3 * difference_shift)` cubes of the coordinates' last place,
-    /// divided by what a weight of one stands for.
+    /// Its unit is `2^(volume_shift + 3 * difference_shift - weight_bits)` cubes of the coordinates'
+    /// last place: see [`VolumeForm::volume_exponent`].
     ///
     /// # Scaling and overflow
     ///
@@ -118,9 +141,8 @@ impl<'a> VolumeForm<'a> {
     /// The enclosed volume of a pose and its derivative by each control point of the region.
     ///
     /// `gradient` holds one vector for each of [`VolumeForm::points`]; they add up to zero. Their
-    /// unit is `2^(31 + 2 * difference_shift - gradient_bits)` squares of the coordinates' last
-    /// place, divided by what a weight of one stands for; it is the derivative by a movement of one
-    /// last place times `2^(difference_shift)`.
+    /// unit is `2^(31 + 2 * difference_shift - gradient_bits - weight_bits)` squares of the
+    /// coordinates' last place: see [`VolumeForm::gradient_exponent`].
     ///
     /// # Scaling and overflow
     ///

@@ -32,7 +32,9 @@ mod error;
 mod evaluate;
 mod form;
 mod modes;
+mod section;
 
 pub use error::EnclosedError;
 pub use form::{Enclosed, GRADIENT_LIMIT, VolumeForm, VolumeFormParts, WEIGHT_LIMIT};
 pub use modes::{MODE_WEIGHT_LIMIT, VolumeModes};
+pub use section::VolumeRecord;

@@ -1,0 +1,86 @@
+//! A volume form as it lies in a bundle.
+
+use core::mem::size_of;
+
+use zerocopy::byteorder::little_endian::{I32, U32};
+use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+use super::error::EnclosedError;
+use super::form::{VolumeForm, VolumeFormParts};
+
+/// The first 32 bytes of a volume form's section. Behind it lie, without a gap, the weights (`i32`
+/// for each tap), the first tap of each pair and the number of taps (`u32`), the pairs (two
+/// `u16`), the points (`u16`) and the third points of the taps (`u16`).
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct VolumeRecord {
+    /// Control points of the region.
+    pub points: U32,
+    /// Pairs of points.
+    pub pairs: U32,
+    /// Taps.
+    pub taps: U32,
+    /// See [`VolumeFormParts`].
+    pub difference_shift: U32,
+    /// See [`VolumeFormParts`].
+    pub pair_bits: U32,
+    /// See [`VolumeFormParts`].
+    pub volume_shift: U32,
+    /// See [`VolumeFormParts`].
+    pub gradient_bits: U32,
+    /// See [`VolumeFormParts`].
+    pub weight_bits: I32,
+}
+
+impl<'a> VolumeForm<'a> {
+    /// Opens a section in place, and proves what [`VolumeForm::new_checked`] proves.
+    ///
+    /// # Errors
+    ///
+    /// [`EnclosedError::Layout`] if the bytes are not as long as their record says or start on an
+    /// address that is no multiple of 4; else those of [`VolumeForm::new_checked`].
+    pub fn from_section(bytes: &'a [u8], control_points: usize) -> Result<Self, EnclosedError> {
+        let layout = EnclosedError::Layout { place: 0 };
+        let (record, rest) = VolumeRecord::ref_from_prefix(bytes).map_err(|_| layout)?;
+        let count = |field: U32| usize::try_from(field.get()).map_err(|_| layout);
+        let (points, pairs, taps) = (
+            count(record.points)?,
+            count(record.pairs)?,
+            count(record.taps)?,
+        );
+        let starts = pairs.checked_add(1).ok_or(layout)?;
+        let (weights, rest) = take::<i32>(rest, taps)?;
+        let (pair_starts, rest) = take::<u32>(rest, starts)?;
+        let (pairs, rest) = take::<[u16; 2]>(rest, pairs)?;
+        let (points, rest) = take::<u16>(rest, points)?;
+        let (thirds, rest) = take::<u16>(rest, taps)?;
+        if !rest.is_empty() {
+            return Err(layout);
+        }
+        let parts = VolumeFormParts {
+            points,
+            pairs,
+            pair_starts,
+            thirds,
+            weights,
+            difference_shift: record.difference_shift.get(),
+            pair_bits: record.pair_bits.get(),
+            volume_shift: record.volume_shift.get(),
+            gradient_bits: record.gradient_bits.get(),
+            weight_bits: record.weight_bits.get(),
+        };
+        Self::new_checked(parts, control_points)
+    }
+}
+
+/// The next elements, and what lies behind them.
+fn take<T: FromBytes + Immutable + KnownLayout>(
+    bytes: &[u8],
+    count: usize,
+) -> Result<(&[T], &[u8]), EnclosedError> {
+    let layout = EnclosedError::Layout { place: 0 };
+    let length = count.checked_mul(size_of::<T>()).ok_or(layout)?;
+    let (own, rest) = bytes.split_at_checked(length).ok_or(layout)?;
+    let elements = <[T]>::ref_from_bytes(own).map_err(|_| layout)?;
+    Ok((elements, rest))
+}
