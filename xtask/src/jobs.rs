@@ -241,7 +241,7 @@ fn device(build: Build, arguments: &[&str]) -> Result<(), Failure> {
     ];
     let mut program = Program::cargo().args(run);
     if build == Build::Release {
-        program = program.args(["--release"]);
+        program = program.args(["--profile", "proof"]);
     }
     with_images(program.args(["--"]).args(arguments))?.run()
 }
