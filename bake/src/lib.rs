@@ -36,5 +36,6 @@ pub mod progress;
 pub mod read;
 pub mod refine;
 pub mod surface;
+pub mod slice;
 pub mod table;
 pub mod write;

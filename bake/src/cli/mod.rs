@@ -10,6 +10,7 @@ mod progress;
 mod refine;
 mod refine_surface;
 mod scheme;
+mod slice;
 mod source;
 mod volume;
 
@@ -39,6 +40,7 @@ enum Command {
     Refine(refine::Arguments),
     Bake(bake::Arguments),
     Deform(deform::Arguments),
+    Slice(slice::Arguments),
     Poses(poses::Arguments),
     Volume(volume::Arguments),
     Forms(forms::Arguments),
@@ -51,6 +53,7 @@ pub fn run() -> ExitCode {
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments),
         Command::Deform(arguments) => deform::run(&arguments),
+        Command::Slice(arguments) => slice::run(&arguments),
         Command::Poses(arguments) => poses::run(&arguments),
         Command::Volume(arguments) => volume::run(&arguments),
         Command::Forms(arguments) => forms::run(&arguments),

@@ -5,6 +5,7 @@
 //! together with the choice of the reader by the file name's extension. A new format is one more
 //! file and one more line in [`solid`] or [`model`].
 
+pub mod channel;
 pub mod diagonals;
 pub mod features;
 pub mod gmsh;

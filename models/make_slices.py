@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""Makes the cages and channels that the cross-sections in models/README.md are drawn of.
+
+Only the standard library is needed. Every file is the same on every run.
+"""
+
+import math
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent / "slices"
+
+
+def write_mesh(name, points, tetrahedra):
+    """Writes a Gmsh 2.2 file; cells are turned positive."""
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(points))]
+    lines += [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(points)]
+    lines += ["$EndNodes", "$Elements", str(len(tetrahedra))]
+    for i, cell in enumerate(tetrahedra):
+        if volume(*(points[v] for v in cell)) < 0:
+            cell = (cell[1], cell[0], cell[2], cell[3])
+        lines.append(f"{i + 1} 4 2 1 1 " + " ".join(str(v + 1) for v in cell))
+    lines += ["$EndElements", ""]
+    (FOLDER / name).write_text("\n".join(lines))
+
+
+def write_channel(name, values):
+    (FOLDER / name).write_text("\n".join(repr(float(v)) for v in values) + "\n")
+
+
+def volume(a, b, c, d):
+    u, v, w = ([q[k] - a[k] for k in range(3)] for q in (b, c, d))
+    return (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        - u[1] * (v[0] * w[2] - v[2] * w[0])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
+
+
+def split_prism(prism):
+    """Three tetrahedra of a triangular prism; sides are cut from their least vertex."""
+    below, above = prism
+    turn = below.index(min(below)) if min(below) < min(above) else above.index(min(above))
+    below, above = below[turn:] + below[:turn], above[turn:] + above[:turn]
+    if min(above) < min(below):
+        below, above = above, below
+    a, b, c = below
+    d, e, f = above
+    # Cut from a; the side without a is cut from its least vertex.
+    if min(b, f) < min(c, e):
+        return [(a, b, c, f), (a, b, f, e), (a, e, f, d)]
+    return [(a, b, c, e), (a, e, c, f), (a, e, f, d)]
+
+
+def stack(points_below, triangles, heights):
+    """Layers of prisms over a triangulated base, as tetrahedra."""
+    size = len(points_below)
+    points = [(x, y, z) for z in heights for (x, y) in points_below]
+    tetrahedra = []
+    for layer in range(len(heights) - 1):
+        for t in triangles:
+            below = [v + layer * size for v in t]
+            above = [v + (layer + 1) * size for v in t]
+            tetrahedra += split_prism((below, above))
+    return points, tetrahedra
+
+
+def lattice_tetrahedron():
+    """A cell of the regular lattice, sixteen times its size, with the axes of paper 2's figure 15:
+    the edges of its sixteenths are (1,0,0), (0,1,0), (0,0,1), (1,1,1) and two more directions, and
+    one diagonal of the octahedra runs along y = x."""
+    corners = [(0, 0, 0), (0, 1, 1), (1, 0, 1), (1, 1, 0)]
+    columns = [(0.5, 0.5, 0.0), (0.5, -0.5, 0.0), (-0.5, -0.5, -1.0)]
+    points = [
+        tuple(16.0 * sum(p[j] * columns[j][k] for j in range(3)) for k in range(3)) for p in corners
+    ]
+    write_mesh("lattice.msh", points, [(0, 1, 2, 3)])
+
+
+def two_tetrahedra():
+    """Two tetrahedra whose common face lies in the plane z = 0."""
+    ring = [(math.cos(2 * math.pi * k / 3), math.sin(2 * math.pi * k / 3), 0.0) for k in range(3)]
+    points = ring + [(0.0, 0.0, 1.4), (0.0, 0.0, -1.4)]
+    write_mesh("two.msh", points, [(0, 1, 2, 3), (0, 2, 1, 4)])
+
+
+def cylinder():
+    """Six layers of a disc; the density differs between top, middle and bottom."""
+    sides = 10
+    base = [(0.0, 0.0)]
+    for radius, shift in ((0.5, 0.5), (1.0, 0.0)):
+        for k in range(sides):
+            angle = 2 * math.pi * (k + shift) / sides
+            base.append((radius * math.cos(angle), radius * math.sin(angle)))
+    inner = [1 + k for k in range(sides)]
+    outer = [1 + sides + k for k in range(sides)]
+    triangles = []
+    for k in range(sides):
+        n = (k + 1) % sides
+        triangles.append((0, inner[k], inner[n]))
+        triangles.append((inner[k], outer[n], inner[n]))
+        triangles.append((outer[k], outer[n], inner[k]))
+    heights = [0.5 * k for k in range(7)]
+    points, cells = stack(base, triangles, heights)
+    write_mesh("cylinder.msh", points, cells)
+    by_layer = [1.0, 1.0, 0.2, 0.2, 0.2, 0.8, 0.0]
+    write_channel("cylinder-density.txt", [by_layer[v // len(base)] for v in range(len(points))])
+
+
+def panel():
+    """A flat panel with a tension that spreads from a loaded corner, at four times."""
+    cells_x, cells_y = 8, 5
+    base = [(x * 0.5, y * 0.5) for y in range(cells_y + 1) for x in range(cells_x + 1)]
+    at = lambda x, y: y * (cells_x + 1) + x
+    triangles = []
+    for y in range(cells_y):
+        for x in range(cells_x):
+            a, b, c, d = at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)
+            triangles += [(a, b, c), (a, c, d)] if (x + y) % 2 else [(a, b, d), (b, c, d)]
+    points, cells = stack(base, triangles, [0.0, 0.25])
+    write_mesh("panel.msh", points, cells)
+    neighbours = [set() for _ in points]
+    for cell in cells:
+        for v in cell:
+            neighbours[v].update(w for w in cell if w != v)
+    load = {v for v, p in enumerate(points) if p[0] <= 0.5 and p[1] <= 0.5}
+    held = {v for v, p in enumerate(points) if p[0] >= 4.0}
+    values = [1.0 if v in load else 0.0 for v in range(len(points))]
+    for frame in range(4):
+        write_channel(f"panel-tension-{frame}.txt", values)
+        for _ in range(4):
+            means = [sum(values[w] for w in near) / len(near) for near in neighbours]
+            values = [
+                1.0 if v in load else 0.0 if v in held else 0.5 * (values[v] + means[v])
+                for v in range(len(points))
+            ]
+
+
+if __name__ == "__main__":
+    FOLDER.mkdir(exist_ok=True)
+    lattice_tetrahedron()
+    two_tetrahedra()
+    cylinder()
+    panel()
