@@ -15,6 +15,7 @@
 //! * [`forms`]: the exact volume that a subdivision surface encloses, and its moments.
 //! * [`bundle`]: the bytes for the device's flash.
 //! * [`mod@deform`]: the device's own code applied on the host.
+//! * [`slice`]: values on a plane and along a line, and the picture of them.
 //! * [`mod@write`], [`picture`]: files to look at.
 //!
 //! No mathematics that a device could also need is written here: masks, numbering, rounding and the
@@ -35,7 +36,7 @@ pub mod picture;
 pub mod progress;
 pub mod read;
 pub mod refine;
-pub mod surface;
 pub mod slice;
+pub mod surface;
 pub mod table;
 pub mod write;
