@@ -17,9 +17,9 @@ use std::path::PathBuf;
 /// report says how large it is and how far its results can be from the smooth map.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The cage at rest: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
+    /// The cage at rest: Gmsh .msh, VTK .vtu or .vtk, Medit .mesh, TetGen .node with .ele
     cage: PathBuf,
-    /// The model at rest, in the cage's unit: Wavefront .obj
+    /// The model at rest, in the cage's unit: .obj, .ply, .stl or .off
     #[arg(long, value_name = "MODEL")]
     model: PathBuf,
     /// The subdivision scheme
@@ -43,7 +43,7 @@ pub struct Arguments {
     /// is converted
     #[arg(long, value_name = "UNIT", default_value = "")]
     unit: String,
-    /// File with creases and corners of the cage: a line each, `crease A B` or `corner A`
+    /// File with features of the cage: a line each, `crease A B`, `crease-face A B C` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
     /// How the table is stored: see the report for what each format costs; by default q30, or what

@@ -274,7 +274,7 @@ fn draw(
         up: arguments.up.unwrap_or(default.up),
     };
     let cage_edges = match cage {
-        Some(cage) => edges_of(&Level::new(&cage)?.surface),
+        Some(cage) => edges_of(Level::new(&cage)?.boundary()),
         None => Vec::new(),
     };
     let scene = Scene {
