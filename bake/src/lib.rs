@@ -15,7 +15,7 @@
 //! * [`forms`]: the exact volume that a subdivision surface encloses, and its moments.
 //! * [`bundle`]: the bytes for the device's flash.
 //! * [`mod@deform`]: the device's own code applied on the host.
-//! * [`slice`]: values on a plane and along a line, and the picture of them.
+//! * [`mod@slice`]: values on a plane and along a line, and the picture of them.
 //! * [`mod@write`], [`picture`]: files to look at.
 //!
 //! No mathematics that a device could also need is written here: masks, numbering, rounding and the

@@ -57,7 +57,7 @@ pub fn exact_form(scheme: Scheme, valence: usize) -> Result<TrilinearForm<Quadra
 /// The iteration `w = M w + b` corrects its own rounding errors and stops when no coefficient
 /// changes by more than 2^-60 of the greatest, so that the error of each coefficient is a few
 /// roundings of the greatest one: the tests hold it below [`FORM_ERROR`] times the greatest
-/// coefficient against exact forms and against a computation with twice the digits.
+/// coefficient against the exact forms of the valences that have them.
 ///
 /// # Errors
 ///
