@@ -1,7 +1,7 @@
 //! Core's table against the reference's apply: both forms, every bit, saturation counted.
 
 use fixed::types::I12F20;
-use octruss::bundle::{Bundle, BundleError};
+use octruss::bundle::{Bundle, BundleError, Sections};
 use octruss_host_tests::bundle_bytes::{BundleBytes, row_with_a_great_residual};
 use octruss_host_tests::compare::compare;
 use octruss_host_tests::random_table::{ApplyCase, RowSum};
@@ -112,6 +112,61 @@ fn random_tables_are_equal() {
         "only {} bundles are refused",
         seen.refused
     );
+}
+
+/// One weight changed by one unit is refused; two of a row changed against each other keep the
+/// sum, pass, and show in the bits.
+#[test]
+fn a_changed_weight_is_refused_or_seen() {
+    let mut changed = 0;
+    for seed in 0..100 {
+        let mut case = ApplyCase::<3>::new(seed, 10, 20, RowSum::One);
+        // Residuals that fit, and a first tap as far from the others as can be.
+        case.rest_pose.fill([0; 3]);
+        case.rest.fill([0; 3]);
+        case.pose.fill([i32::MIN / 4; 3]);
+        let rows = 0..case.table.row_count();
+        let Some(row) = rows
+            .into_iter()
+            .find(|row| case.table.row(*row).count() > 1)
+        else {
+            continue;
+        };
+        let first = case.table.offsets[row] as usize;
+        case.pose[usize::from(case.table.indices[first])] = [i32::MAX / 4; 3];
+        let sound = change_weights(&case, first, [0, 0]);
+        assert!(Bundle::new_checked(sound.bytes()).is_ok(), "seed {seed}");
+        let alone = change_weights(&case, first, [1, 0]);
+        let error = BundleError::Weights { row: row as u32 };
+        assert_eq!(
+            Bundle::new_checked(alone.bytes()).err(),
+            Some(error),
+            "seed {seed}"
+        );
+        let both = change_weights(&case, first, [-1, 1]);
+        // Only magnitudes that add up to exactly two can grow too great.
+        let Ok(bundle) = Bundle::new_checked(both.bytes()) else {
+            continue;
+        };
+        let mut seen = Seen::default();
+        apply(&case, &bundle, &mut seen).expect_err("the bits change");
+        changed += 1;
+    }
+    assert!(changed > 30, "only {changed} tables were changed");
+}
+
+/// The bundle of a case, two neighbouring weights of which are changed by so many units.
+fn change_weights(case: &ApplyCase<3>, first: usize, by: [i32; 2]) -> BundleBytes {
+    let mut bundle = BundleBytes::new(case, 16);
+    let (rows, taps) = (case.table.row_count(), case.table.weights.len());
+    let sections = Sections::new(case.pose.len(), rows, taps).expect("a small bundle");
+    for (tap, by) in (first..).zip(by) {
+        let place = sections.weights.start + 4 * tap;
+        let weight = case.table.weights[tap] + by;
+        bundle.bytes_mut()[place..place + 4].copy_from_slice(&weight.to_le_bytes());
+    }
+    bundle.seal();
+    bundle
 }
 
 #[test]
