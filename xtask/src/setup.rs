@@ -182,6 +182,7 @@ fn ensure_emulator() -> Result<(), Failure> {
         "The emulator qemu-system-arm is missing; {} installs it.",
         manager.program
     );
+    let install = as_root(manager, manager.install)?;
     if let Some(refresh) = manager.refresh
         && let Err(failure) = as_root(manager, refresh)?.run()
     {
