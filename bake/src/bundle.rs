@@ -6,7 +6,7 @@
 use crate::error::{Error, Result};
 use crate::mesh::{Cells, Point};
 use crate::pack::writer::{self, Section};
-use crate::refine::{BoundaryRule, Scheme};
+use crate::surface::SurfaceLevel;
 use crate::table::format::Format;
 use octruss::bundle::{self, Bundle, Header};
 use std::path::Path;
@@ -21,10 +21,10 @@ pub struct Contents<'a> {
     pub format: Format,
     /// Name of the unit of the coordinates, at most [`LONGEST_UNIT`] bytes; may be empty.
     pub unit: &'a str,
-    /// The scheme.
-    pub scheme: Scheme,
-    /// What the boundary followed.
-    pub boundary: BoundaryRule,
+    /// The scheme's number in the header.
+    pub scheme: u32,
+    /// The number of what the boundary followed.
+    pub boundary: u32,
     /// How many times the cage was refined.
     pub levels: u32,
     /// Control points of the cage.
@@ -47,6 +47,21 @@ pub fn cage_checksum(vertices: usize, cells: &Cells) -> u32 {
     let words = counts.into_iter().map(|count| count as u32);
     let bytes: Vec<u8> = words
         .chain(cells.corners().flatten().copied())
+        .flat_map(u32::to_le_bytes)
+        .collect();
+    bundle::checksum_of(&bytes)
+}
+
+/// CRC-32 of a control mesh's connectivity: the numbers of vertices and faces, then for each face its
+/// number of corners and the corners, each number as 32 bits, least significant byte first.
+pub fn surface_checksum(level: &SurfaceLevel) -> u32 {
+    let counts = [level.vertex_count, level.faces().count() as u32];
+    let faces = level
+        .faces()
+        .flat_map(|face| std::iter::once(face.len() as u32).chain(face.iter().copied()));
+    let bytes: Vec<u8> = counts
+        .into_iter()
+        .chain(faces)
         .flat_map(u32::to_le_bytes)
         .collect();
     bundle::checksum_of(&bytes)
@@ -78,11 +93,6 @@ fn header(contents: &Contents<'_>) -> Header {
     for (place, byte) in unit.iter_mut().zip(contents.unit.bytes()) {
         *place = byte;
     }
-    let scheme = match contents.scheme {
-        Scheme::TetOct => bundle::SCHEME_TET_OCT,
-        Scheme::BoxSpline => bundle::SCHEME_BOX_SPLINE,
-        Scheme::BoxSplineAveraged => bundle::SCHEME_BOX_SPLINE_AVERAGED,
-    };
     Header {
         magic: bundle::MAGIC,
         version: bundle::VERSION.into(),
@@ -92,8 +102,8 @@ fn header(contents: &Contents<'_>) -> Header {
         sections: 0.into(),
         fraction_bits: contents.format.fraction_bits.into(),
         unit,
-        scheme: scheme.into(),
-        boundary: contents.boundary.code().into(),
+        scheme: contents.scheme.into(),
+        boundary: contents.boundary.into(),
         levels: contents.levels.into(),
         control_points: (contents.control_points as u32).into(),
         rows: (contents.rows as u32).into(),

@@ -1,9 +1,10 @@
 //! Applies a bundle on the host, with the device's own code.
 
-use crate::bundle::{cage_checksum, model_checksum};
+use crate::bundle::{cage_checksum, model_checksum, surface_checksum};
 use crate::error::{Error, Result, count};
 use crate::mesh::{Point, SolidMesh};
 use crate::read::obj::Model;
+use crate::surface::{SurfaceLevel, SurfaceMesh};
 use crate::table::format::Format;
 use octruss::bundle::Bundle;
 use octruss::deform::{CompactTable, Displacement, Table};
@@ -139,6 +140,26 @@ pub fn require_cage(bundle: &Bundle<'_>, mesh: &SolidMesh) -> Result<()> {
         bundle.rest_cage().len()
     ))
     .advise("a pose is the cage itself with its vertices moved: same vertices, same cells, same order"))
+}
+
+/// True if the bundle was baked from a control mesh of a surface.
+pub fn is_of_surface(bundle: &Bundle<'_>) -> bool {
+    bundle.header().scheme.get() >= octruss::bundle::SCHEME_LOOP
+}
+
+/// Error unless the control mesh has the connectivity of the one that the bundle was baked from.
+pub fn require_control_mesh(bundle: &Bundle<'_>, mesh: &SurfaceMesh) -> Result<()> {
+    let level = SurfaceLevel::new(mesh)?;
+    if surface_checksum(&level) == bundle.header().cage_checksum.get() {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "the mesh ({}, {}) has not the connectivity of the control mesh that the bundle was baked from ({})",
+        count(mesh.points.len(), "vertex", "vertices"),
+        count(mesh.faces.len(), "face", "faces"),
+        count(bundle.rest_cage().len(), "vertex", "vertices")
+    ))
+    .advise("a pose is the control mesh itself with its vertices moved: same vertices, same faces, same order"))
 }
 
 /// Error unless the model is the one that the bundle was baked for, at rest.

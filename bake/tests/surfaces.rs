@@ -124,3 +124,63 @@ fn every_scheme_is_reachable_and_refuses_what_it_does_not_take() {
             .stderr(contains("triangulate the mesh"));
     }
 }
+
+/// A table and the same surface refined on the device agree within their roundings: the device's
+/// refinement rounds once a level (half a unit each, never magnified by masks of positive weights),
+/// the table and its rest once more, and its weights are off by at most 2^-31 a tap.
+#[test]
+fn a_baked_surface_moves_as_the_refined_one() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.obj", CUBE);
+    let posed = folder.write("posed.obj", CUBE.replacen("v 1 1 1", "v 1.75 1.5 2.25", 1));
+    let (bundle, skin) = (folder.path("skin.oct"), folder.path("skin.obj"));
+    octruss()
+        .args(["bake", "--scheme", "catmull-clark", "--levels", "3"])
+        .args(["--fraction-bits", "20", "--skin"])
+        .arg(&skin)
+        .arg("-o")
+        .arg(&bundle)
+        .arg(&cube)
+        .assert()
+        .success()
+        .stdout(contains("8 control points; 386 vertices"));
+    octruss()
+        .arg("deform")
+        .arg(&bundle)
+        .arg("--pose")
+        .arg(&posed)
+        .arg("--model")
+        .arg(&skin)
+        .arg("-o")
+        .arg(folder.path("moved.obj"))
+        .assert()
+        .success();
+    octruss()
+        .args(["refine", "--scheme", "catmull-clark", "--levels", "3"])
+        .args(["--numeric", "fixed", "--fraction-bits", "20", "-o"])
+        .arg(folder.path("refined.obj"))
+        .arg(&posed)
+        .assert()
+        .success();
+    let moved = read::surface(&folder.path("moved.obj")).unwrap();
+    let refined = read::surface(&folder.path("refined.obj")).unwrap();
+    assert_eq!(moved.faces, refined.faces);
+    let unit = 2.0_f64.powi(-20);
+    for (one, other) in moved.points.iter().zip(&refined.points) {
+        for (a, b) in one.iter().zip(other) {
+            assert!((a - b).abs() <= (3.0 * 0.5 + 1.0 + 0.5) * unit, "{a} {b}");
+        }
+    }
+    octruss()
+        .arg("deform")
+        .arg(&bundle)
+        .arg("--pose")
+        .arg(&skin)
+        .arg("--model")
+        .arg(&skin)
+        .arg("-o")
+        .arg(folder.path("none.obj"))
+        .assert()
+        .failure()
+        .stderr(contains("has not the connectivity of the control mesh"));
+}

@@ -1,9 +1,13 @@
 //! `octruss bake`.
 
-use super::{print_figures, progress::Bars, scheme, show_notes, source};
-use octruss_bake::error::{Result, count};
+use super::scheme as schemes;
+use super::{
+    any_scheme::AnyScheme, bake_surface, print_figures, progress::Bars, show_notes, source,
+};
+use octruss_bake::error::{Error, Result, count};
 use octruss_bake::inspect::interior_edges_of_valence_3;
 use octruss_bake::refine::{BoundaryRule, Scheme};
+use octruss_bake::surface::RimRule;
 use octruss_bake::table::format::MOST_FRACTION_BITS;
 use octruss_bake::table::{Input, Options, Outside, Request, TableFormat, bake};
 use octruss_bake::{check, read, write};
@@ -14,52 +18,64 @@ use std::path::PathBuf;
 /// The cage at rest is refined, every point of the model is located in a refined cell, and its
 /// weights there are carried back to the cage's vertices. The bundle holds the weights as integers
 /// that sum to one, the cage and the model at rest, and what is needed to know that it fits. The
-/// report says how large it is and how far its results can be from the smooth map.
+/// report says how large it is and how far its results can be from the smooth map. Of a surface the
+/// table moves every vertex of the refined control mesh.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The cage at rest: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
-    cage: PathBuf,
-    /// The model at rest, in the cage's unit: Wavefront .obj
+    /// The cage at rest: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu; a surface's control mesh: .obj or
+    /// .off
+    pub cage: PathBuf,
+    /// The model at rest, in the cage's unit: Wavefront .obj; not for surfaces, whose model is the refined
+    /// surface
     #[arg(long, value_name = "MODEL")]
-    model: PathBuf,
-    /// The subdivision scheme
+    pub model: Option<PathBuf>,
+    /// The subdivision scheme: of solids (tet-oct and so on) or of surfaces
     #[arg(long, value_enum, default_value_t)]
-    scheme: Scheme,
+    scheme: AnyScheme,
+    /// What the rim of an open surface follows
+    #[arg(long, value_enum, default_value_t)]
+    pub rim: RimRule,
+    /// Surfaces: bake where the vertices of the last level go in the limit
+    #[arg(long)]
+    pub limit: bool,
+    /// Surfaces: also write the refined surface at rest, the model of `octruss deform`
+    #[arg(long, value_name = "OUT.obj")]
+    pub skin: Option<PathBuf>,
     /// File with the major diagonals of the cage's cells, for `box-spline`: 0, 1 or 2 for each
     /// tetrahedron, then each octahedron, in file order; by default they are chosen
     #[arg(long, value_name = "FILE")]
     diagonals: Option<PathBuf>,
     /// How many times to refine the cage
     #[arg(long, value_name = "K", default_value_t = 2)]
-    levels: u32,
-    /// What the boundary follows
+    pub levels: u32,
+    /// What the boundary of a solid follows
     #[arg(long, value_enum, default_value_t)]
     boundary: BoundaryRule,
     /// Bits after the point of the 32-bit coordinates, 0 to 32; by default as many as leave two
     /// bits of headroom over the largest coordinate of cage and model
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_FRACTION_BITS)))]
-    fraction_bits: Option<u32>,
+    pub fraction_bits: Option<u32>,
     /// Name of the unit of all coordinates, such as mm; at most 16 bytes; it is recorded, nothing
     /// is converted
     #[arg(long, value_name = "UNIT", default_value = "")]
-    unit: String,
+    pub unit: String,
     /// File with creases and corners of the cage: a line each, `crease A B` or `corner A`
     #[arg(long, value_name = "FILE")]
-    features: Option<PathBuf>,
+    pub features: Option<PathBuf>,
     /// How the table is stored: see the report for what each format costs; by default q30, or what
     /// --max-error chooses
     #[arg(long, value_enum, value_name = "FORMAT")]
-    format: Option<TableFormat>,
+    pub format: Option<TableFormat>,
     /// Take the cheapest format whose proved error is at most this, in the model's unit
     #[arg(long, value_name = "ERROR")]
-    max_error: Option<f64>,
+    pub max_error: Option<f64>,
     /// The farthest that a control point moves along an axis, in the cage's unit: what errors are proved
     /// for, and what 16-bit displacements must hold; by default the cage's largest extent
     #[arg(long, value_name = "DISTANCE")]
-    max_displacement: Option<f64>,
+    pub max_displacement: Option<f64>,
     /// Keep the rows in the order of the model's points, which costs time and flash
     #[arg(long)]
-    keep_order: bool,
+    pub keep_order: bool,
     /// What to do with model points outside the refined cage
     #[arg(long, value_enum, default_value_t)]
     outside: Outside,
@@ -69,10 +85,10 @@ pub struct Arguments {
     volume: bool,
     /// Where the random poses start from on which the error is measured
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
-    seed: u64,
+    pub seed: u64,
     /// How many random poses to measure the error on
     #[arg(long, value_name = "NUMBER", default_value_t = 4)]
-    random_poses: u32,
+    pub random_poses: u32,
     /// The bundle to write
     #[arg(short, long, value_name = "OUT.oct")]
     output: PathBuf,
@@ -84,11 +100,25 @@ pub struct Arguments {
     c: Option<PathBuf>,
     /// Print the report as one JSON object
     #[arg(long)]
-    json: bool,
+    pub json: bool,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
+    match arguments.scheme {
+        AnyScheme::Surface(scheme) => bake_surface::run(scheme, arguments),
+        AnyScheme::Solid(scheme) => bake_solid(scheme, arguments),
+    }
+}
+
+fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
+    if arguments.limit || arguments.skin.is_some() {
+        return Err(Error::new("--limit and --skin are for schemes of surfaces"));
+    }
+    let Some(model_file) = &arguments.model else {
+        return Err(Error::new("--model <MODEL> is missing")
+            .advise("name the model that the cage shall move; only surfaces have their own"));
+    };
     let cage = read::solid_with_features(&arguments.cage, arguments.features.as_deref())?;
     show_notes(&cage.notes);
     let unused = check::unused_vertices(&cage);
@@ -101,18 +131,18 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     }
     let edges =
         interior_edges_of_valence_3(&cage).map_err(|error| error.in_file(&arguments.cage))?;
-    if !edges.is_empty() && arguments.scheme == Scheme::TetOct {
+    if !edges.is_empty() && scheme == Scheme::TetOct {
         eprintln!(
             "warning: {} of three cells, along which the map is not smooth; `octruss info` names them",
             count(edges.len(), "interior edge", "interior edges")
         );
     }
-    let model = read::model(&arguments.model)?;
-    let diagonals = scheme::diagonals(arguments.scheme, arguments.diagonals.as_deref(), &cage)?;
-    scheme::warn_of_improper_faces(&cage, arguments.scheme, diagonals.as_ref())
+    let model = read::model(model_file)?;
+    let diagonals = schemes::diagonals(scheme, arguments.diagonals.as_deref(), &cage)?;
+    schemes::warn_of_improper_faces(&cage, scheme, diagonals.as_ref())
         .map_err(|error| error.in_file(&arguments.cage))?;
     let options = Options {
-        scheme: arguments.scheme,
+        scheme,
         diagonals,
         boundary: arguments.boundary,
         levels: arguments.levels,
@@ -134,21 +164,10 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         cage: &cage,
         cage_file: &arguments.cage,
         model: &model.points,
-        model_file: &arguments.model,
+        model_file,
     };
     let baked = bake(input, &options, &mut Bars::default())?;
-    if let Some(file) = &arguments.rust {
-        write::atomically(file, |out| {
-            source::rust(&baked.bundle, &arguments.output, out)
-        })?;
-    }
-    if let Some(file) = &arguments.c {
-        write::atomically(file, |out| source::c(&baked.bundle, &arguments.output, out))?;
-    }
-    write::atomically(&arguments.output, |out| {
-        out.write_all(&baked.bundle)
-            .map_err(|error| octruss_bake::error::Error::new(format!("cannot be written: {error}")))
-    })?;
+    write_sources(&baked.bundle, arguments)?;
     if baked.report.refined_cells_without_volume > 0 {
         eprintln!(
             "warning: {} of the cage at rest without positive volume: the map folds there",
@@ -160,4 +179,18 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         );
     }
     print_figures(&baked.report, arguments.json, || baked.report.to_string())
+}
+
+/// Writes the bundle, and the sources that hold it.
+pub fn write_sources(bundle: &[u8], arguments: &Arguments) -> Result<()> {
+    if let Some(file) = &arguments.rust {
+        write::atomically(file, |out| source::rust(bundle, &arguments.output, out))?;
+    }
+    if let Some(file) = &arguments.c {
+        write::atomically(file, |out| source::c(bundle, &arguments.output, out))?;
+    }
+    write::atomically(&arguments.output, |out| {
+        out.write_all(bundle)
+            .map_err(|error| Error::new(format!("cannot be written: {error}")))
+    })
 }

@@ -3,7 +3,10 @@
 use super::{print_figures, progress::Bars, show_notes};
 use octruss::bundle::Bundle;
 use octruss_bake::bundle::BundleBytes;
-use octruss_bake::deform::{Form, deform, format_of, pose_bits, require_cage, require_model};
+use octruss_bake::deform::{
+    Form, deform, format_of, is_of_surface, pose_bits, require_cage, require_control_mesh,
+    require_model,
+};
 use octruss_bake::error::{Error, Result, count};
 use octruss_bake::mesh::{Point, SolidMesh};
 use octruss_bake::picture::{self, Scene, Sheet, View, contact_sheet, edges_of};
@@ -80,7 +83,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let model = read::model(&arguments.model)?;
     require_model(&bundle, &model).map_err(|error| error.in_file(&arguments.model))?;
     let (frames, mesh) = poses(&bundle, arguments)?;
-    let targets = targets(arguments, &frames, mesh.is_none())?;
+    let is_motion = arguments.pose.is_dir() || read::extension(&arguments.pose) == "csv";
+    let targets = targets(arguments, &frames, is_motion)?;
 
     let mut progress = Bars::default();
     progress.stage("deforming", frames.len());
@@ -134,6 +138,18 @@ fn poses(bundle: &Bundle<'_>, arguments: &Arguments) -> Result<(Vec<Frame>, Opti
         let points = bundle.rest_cage().len();
         let frames = motion::read(pose, points, &|mesh| require_cage(bundle, mesh))?;
         return Ok((frames, None));
+    }
+    if is_of_surface(bundle) {
+        let mesh = read::surface(pose)?;
+        show_notes(&mesh.notes);
+        require_control_mesh(bundle, &mesh).map_err(|error| error.in_file(pose))?;
+        return Ok((
+            vec![Frame {
+                number: 0,
+                points: mesh.points,
+            }],
+            None,
+        ));
     }
     let mesh = read::solid(pose)?;
     show_notes(&mesh.notes);

@@ -2,6 +2,7 @@
 
 mod any_scheme;
 mod bake;
+mod bake_surface;
 mod deform;
 mod forms;
 mod info;

@@ -70,3 +70,15 @@ pub enum Scheme {
     /// Box-spline solids averaged over the three diagonals (Chang, Qin, appendix A)
     BoxSplineAveraged,
 }
+
+impl Scheme {
+    /// The scheme's number in a bundle's header.
+    pub fn code(self) -> u32 {
+        use octruss::bundle as b;
+        match self {
+            Self::TetOct => b::SCHEME_TET_OCT,
+            Self::BoxSpline => b::SCHEME_BOX_SPLINE,
+            Self::BoxSplineAveraged => b::SCHEME_BOX_SPLINE_AVERAGED,
+        }
+    }
+}

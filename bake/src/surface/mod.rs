@@ -44,6 +44,20 @@ pub enum SurfaceScheme {
 }
 
 impl SurfaceScheme {
+    /// The scheme's number in a bundle's header.
+    pub fn code(self) -> u32 {
+        use octruss::bundle as b;
+        match self {
+            Self::Loop => b::SCHEME_LOOP,
+            Self::LoopWarren => b::SCHEME_LOOP_WARREN,
+            Self::CatmullClark => b::SCHEME_CATMULL_CLARK,
+            Self::DooSabin => b::SCHEME_DOO_SABIN,
+            Self::Sqrt3 => b::SCHEME_SQRT3,
+            Self::Butterfly => b::SCHEME_BUTTERFLY,
+            Self::ButterflyModified => b::SCHEME_BUTTERFLY_MODIFIED,
+        }
+    }
+
     /// Loop's weight family, for his schemes.
     fn loop_weights(self) -> Option<LoopWeights> {
         match self {
@@ -68,6 +82,16 @@ pub enum RimRule {
 }
 
 impl RimRule {
+    /// The rule's number in a bundle's header.
+    pub fn code(self) -> u32 {
+        use octruss::bundle as b;
+        match self {
+            Self::Spline => b::RIM_SPLINE,
+            Self::SplineWithCorners => b::RIM_SPLINE_WITH_CORNERS,
+            Self::Fixed => b::RIM_FIXED,
+        }
+    }
+
     /// The rule as core takes it.
     pub fn to_core(self) -> Rim {
         match self {

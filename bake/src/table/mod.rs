@@ -12,6 +12,7 @@ mod measure;
 pub mod precision;
 pub mod quantise;
 mod report;
+pub mod surface;
 mod volume;
 
 pub use choice::{FormatReport, Request, TableFormat};
@@ -165,8 +166,8 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,
-        scheme: options.scheme,
-        boundary: options.boundary,
+        scheme: options.scheme.code(),
+        boundary: options.boundary.code(),
         levels: options.levels,
         control_points: cage.points.len(),
         rows: model.len(),
@@ -226,14 +227,20 @@ fn require_sizes(input: Input<'_>) -> Result<()> {
     .in_file(input.cage_file))
 }
 
-fn choose_format(cage: &SolidMesh, model: &[Point], options: &Options) -> Result<Format> {
-    if options.unit.len() > LONGEST_UNIT || options.unit.contains('\0') {
+/// A unit's name fits its field.
+fn require_unit(unit: &str) -> Result<()> {
+    if unit.len() > LONGEST_UNIT || unit.contains('\0') {
         return Err(
-            Error::new(format!("the unit's name \"{}\" is too long", options.unit)).advise(
-                format!("a unit has at most {LONGEST_UNIT} bytes, such as \"mm\""),
-            ),
+            Error::new(format!("the unit's name \"{unit}\" is too long")).advise(format!(
+                "a unit has at most {LONGEST_UNIT} bytes, such as \"mm\""
+            )),
         );
     }
+    Ok(())
+}
+
+fn choose_format(cage: &SolidMesh, model: &[Point], options: &Options) -> Result<Format> {
+    require_unit(&options.unit)?;
     match options.fraction_bits {
         None => Ok(Format::with_headroom(cage.points.iter().chain(model))),
         Some(fraction_bits @ 0..=MOST_FRACTION_BITS) => Ok(Format { fraction_bits }),

@@ -61,14 +61,18 @@ pub struct TapsReport {
 }
 
 impl TapsReport {
-    pub(super) fn of(rows: &[QuantisedRow]) -> Self {
-        let total = rows.iter().map(|row| row.taps.len()).sum();
-        let longest = rows.iter().map(|row| row.taps.len()).max().unwrap_or(0);
+    pub(super) fn of_lengths(lengths: &[usize]) -> Self {
+        let total = lengths.iter().sum();
         Self {
             total,
-            mean: total as f64 / rows.len().max(1) as f64,
-            longest,
+            mean: total as f64 / lengths.len().max(1) as f64,
+            longest: lengths.iter().copied().max().unwrap_or(0),
         }
+    }
+
+    pub(super) fn of(rows: &[QuantisedRow]) -> Self {
+        let lengths: Vec<usize> = rows.iter().map(|row| row.taps.len()).collect();
+        Self::of_lengths(&lengths)
     }
 }
 

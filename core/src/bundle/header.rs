@@ -16,6 +16,28 @@ pub const SCHEME_BOX_SPLINE: u32 = 2;
 /// [`Header::scheme`]: the averaged box-spline scheme.
 pub const SCHEME_BOX_SPLINE_AVERAGED: u32 = 3;
 
+/// [`Header::scheme`]: Loop's surfaces. The codes of surfaces are 16 to 22.
+pub const SCHEME_LOOP: u32 = 16;
+/// [`Header::scheme`]: Loop's surfaces with Warren's weights.
+pub const SCHEME_LOOP_WARREN: u32 = 17;
+/// [`Header::scheme`]: Catmull and Clark's surfaces.
+pub const SCHEME_CATMULL_CLARK: u32 = 18;
+/// [`Header::scheme`]: Doo and Sabin's surfaces.
+pub const SCHEME_DOO_SABIN: u32 = 19;
+/// [`Header::scheme`]: square-root-3 surfaces.
+pub const SCHEME_SQRT3: u32 = 20;
+/// [`Header::scheme`]: butterfly surfaces.
+pub const SCHEME_BUTTERFLY: u32 = 21;
+/// [`Header::scheme`]: modified butterfly surfaces.
+pub const SCHEME_BUTTERFLY_MODIFIED: u32 = 22;
+
+/// [`Header::boundary`] of surfaces: the rim is a cubic B-spline.
+pub const RIM_SPLINE: u32 = 16;
+/// [`Header::boundary`] of surfaces: the rim is a cubic B-spline with corners.
+pub const RIM_SPLINE_WITH_CORNERS: u32 = 17;
+/// [`Header::boundary`] of surfaces: the rim stays.
+pub const RIM_FIXED: u32 = 18;
+
 /// [`Header::boundary`]: Loop's scheme with its weights of 1987.
 pub const BOUNDARY_LOOP: u32 = 1;
 /// [`Header::boundary`]: Loop's scheme with Warren's weights.
@@ -45,7 +67,7 @@ pub struct Header {
     pub unit: [u8; 16],
     /// The scheme that made the table.
     pub scheme: U32,
-    /// What the solid's boundary follows.
+    /// What the solid's boundary or the surface's rim follows.
     pub boundary: U32,
     /// How many times the cage was refined.
     pub levels: U32,

@@ -6,7 +6,8 @@ use zerocopy::FromBytes;
 
 use super::error::BundleError;
 use super::header::{
-    BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, SCHEME_BOX_SPLINE_AVERAGED, SCHEME_TET_OCT,
+    BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, RIM_FIXED, RIM_SPLINE,
+    SCHEME_BOX_SPLINE_AVERAGED, SCHEME_BUTTERFLY_MODIFIED, SCHEME_LOOP, SCHEME_TET_OCT,
     SECTION_MODEL_POINTS, SECTION_REST_CAGE, SECTION_VOLUME, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
@@ -317,8 +318,12 @@ fn check_header(header: &Header, bytes: &[u8]) -> Result<(), BundleError> {
     if stored != computed {
         return Err(BundleError::Checksum { stored, computed });
     }
-    let known = (SCHEME_TET_OCT..=SCHEME_BOX_SPLINE_AVERAGED).contains(&header.scheme.get())
-        && (BOUNDARY_LOOP..=BOUNDARY_FIXED).contains(&header.boundary.get())
+    let (scheme, boundary) = (header.scheme.get(), header.boundary.get());
+    let is_solid = (SCHEME_TET_OCT..=SCHEME_BOX_SPLINE_AVERAGED).contains(&scheme)
+        && (BOUNDARY_LOOP..=BOUNDARY_FIXED).contains(&boundary);
+    let is_surface = (SCHEME_LOOP..=SCHEME_BUTTERFLY_MODIFIED).contains(&scheme)
+        && (RIM_SPLINE..=RIM_FIXED).contains(&boundary);
+    let known = (is_solid || is_surface)
         && header.fraction_bits.get() <= i32::BITS
         && header.reserved.iter().all(|&byte| byte == 0)
         && core::str::from_utf8(&header.unit).is_ok();

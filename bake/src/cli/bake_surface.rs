@@ -1,0 +1,50 @@
+//! `octruss bake` of surfaces.
+
+use super::bake::{Arguments, write_sources};
+use super::{print_figures, progress::Bars, show_notes};
+use octruss_bake::error::{Error, Result};
+use octruss_bake::surface::SurfaceScheme;
+use octruss_bake::table::Request;
+use octruss_bake::table::surface::{SurfaceOptions, bake_surface};
+use octruss_bake::{read, write};
+
+/// Runs the command.
+pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
+    if arguments.model.is_some() {
+        return Err(Error::new(
+            "--model is for cages of cells: a surface's model is the refined surface",
+        )
+        .advise("leave it out; --skin writes the refined surface"));
+    }
+    let mesh = read::surface_with_features(&arguments.cage, arguments.features.as_deref())?;
+    show_notes(&mesh.notes);
+    let options = SurfaceOptions {
+        scheme,
+        rim: arguments.rim,
+        levels: arguments.levels,
+        limit: arguments.limit,
+        fraction_bits: arguments.fraction_bits,
+        unit: arguments.unit.clone(),
+        request: Request {
+            format: arguments.format,
+            max_error: arguments.max_error,
+            max_displacement: arguments.max_displacement,
+            keep_order: arguments.keep_order,
+            survey: true,
+        },
+        random_poses: arguments.random_poses,
+        seed: arguments.seed,
+    };
+    let baked = bake_surface(&mesh, &options, &mut Bars::default())
+        .map_err(|error| error.in_file(&arguments.cage))?;
+    if let Some(skin) = &arguments.skin {
+        if read::extension(skin) != "obj" {
+            return Err(Error::new("expected a name that ends in .obj").in_file(skin));
+        }
+        write::atomically(skin, |out| {
+            write::obj::write(&baked.points, baked.level.faces(), out)
+        })?;
+    }
+    write_sources(&baked.bundle, arguments)?;
+    print_figures(&baked.report, arguments.json, || baked.report.to_string())
+}
