@@ -126,7 +126,8 @@ pub fn require_sound_connectivity(mesh: &SolidMesh) -> Result<()> {
     }
 }
 
-fn faces(mesh: &SolidMesh) -> impl Iterator<Item = [Vertex; 3]> {
+/// The faces of all cells, counter-clockwise from outside of a positive cell.
+pub(crate) fn faces(mesh: &SolidMesh) -> impl Iterator<Item = [Vertex; 3]> {
     let of_tetrahedra = mesh
         .cells
         .tetrahedra

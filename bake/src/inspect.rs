@@ -66,6 +66,12 @@ pub struct Inspection {
     pub crease_vertex_valences: Histogram,
     /// Corners.
     pub corners: usize,
+    /// Faces of crease surfaces inside.
+    pub crease_faces: usize,
+    /// How many cells have each label; empty if cells have none.
+    pub labels: BTreeMap<i32, usize>,
+    /// Names of the scalar channels.
+    pub channels: Vec<String>,
     /// Vertices of no cell.
     pub unused_vertices: Vec<usize>,
     /// Cells of negative volume, by name.
@@ -169,7 +175,7 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
     let volumes = Volumes::of(&mesh.cells, &mesh.points);
     let names = |cells: &[usize]| cells.iter().map(|cell| mesh.cells.name(*cell)).collect();
     let edge_cells = edge_cells(mesh);
-    let surface = SurfaceEdges::of(&level.surface);
+    let surface = SurfaceEdges::of(level.boundary());
     let on_boundary = |edge: &[Vertex; 2]| surface.triangles.contains_key(edge);
     let (boundary, interior): (Vec<_>, Vec<_>) =
         edge_cells.iter().partition(|(edge, _)| on_boundary(edge));
@@ -190,13 +196,20 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         interior_vertex_valences: count_each(interior_vertices.into_iter().map(|(_, n)| *n as u32)),
         boundary_vertex_valences: count_each(boundary_vertices.into_iter().map(|(_, n)| *n as u32)),
         surface_vertex_valences: edge_valences(surface.triangles.keys()),
-        boundary_triangles: level.surface.len(),
+        boundary_triangles: level.boundary().len(),
         boundary_edges: surface.triangles.len(),
         irregular_boundary_edges: surface.triangles.values().filter(|n| **n != 2).count(),
         box_spline: None,
         creases: mesh.features.creases.len(),
         crease_vertex_valences: edge_valences(mesh.features.creases.iter()),
         corners: mesh.features.corners.len(),
+        crease_faces: level.crease_faces().len(),
+        labels: count_each(mesh.labels.iter()),
+        channels: mesh
+            .channels
+            .iter()
+            .map(|channel| channel.name.clone())
+            .collect(),
         unused_vertices: check::unused_vertices(mesh),
         inverted_cells: names(&volumes.inverted),
         flat_cells: names(&volumes.flat),
@@ -211,7 +224,7 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
 /// # Errors
 /// If the connectivity is none of a solid.
 pub fn interior_edges_of_valence_3(mesh: &SolidMesh) -> Result<Vec<[Vertex; 2]>> {
-    let surface = SurfaceEdges::of(&Level::new(mesh)?.surface);
+    let surface = SurfaceEdges::of(Level::new(mesh)?.boundary());
     let edges = edge_cells(mesh);
     let interior = edges
         .iter()

@@ -1,8 +1,7 @@
 //! A solid mesh as it stands in a file: vertices in file order, cells by shape, features.
 //!
 //! Readers fill it, `check` judges it, `refine` hands it to core. A new cell shape is one more
-//! field of [`Cells`]; labels and scalar channels of vertices or cells are further fields of
-//! [`SolidMesh`].
+//! field of [`Cells`] and of [`Labels`].
 
 /// Index of a vertex, counted from 0 in file order.
 pub type Vertex = u32;
@@ -54,6 +53,61 @@ pub struct Features {
     pub creases: Vec<[Vertex; 2]>,
     /// Vertices that keep their place, ascending, none twice.
     pub corners: Vec<Vertex>,
+    /// Faces of cells that make up crease surfaces inside the solid, each with ascending vertices,
+    /// ascending, none twice. A face on the boundary changes nothing.
+    pub faces: Vec<[Vertex; 3]>,
+}
+
+/// What cells are made of or belong to: a number for each, or none at all.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Labels {
+    /// Of the tetrahedra, in their order.
+    pub tetrahedra: Vec<i32>,
+    /// Of the octahedra, in their order.
+    pub octahedra: Vec<i32>,
+}
+
+impl Labels {
+    /// True if cells have no labels.
+    pub fn is_empty(&self) -> bool {
+        self.tetrahedra.is_empty() && self.octahedra.is_empty()
+    }
+
+    /// The labels in the order of [`Cells::corners`].
+    pub fn iter(&self) -> impl Iterator<Item = i32> {
+        self.tetrahedra.iter().chain(&self.octahedra).copied()
+    }
+
+    /// Forgets labels that tell no cell from another that has none: all zero.
+    pub fn drop_if_zero(&mut self) {
+        if self.iter().all(|label| label == 0) {
+            *self = Self::default();
+        }
+    }
+
+    /// The labels of the cells of the next level: every child has its parent's.
+    #[must_use]
+    pub fn refined(&self) -> Self {
+        let each = |labels: &[i32], children: usize| -> Vec<i32> {
+            let repeated = |label: &i32| std::iter::repeat_n(*label, children);
+            labels.iter().flat_map(repeated).collect()
+        };
+        // Core's order: four tetrahedra of each tetrahedron, eight of each octahedron; one
+        // octahedron of each tetrahedron, six of each octahedron.
+        Self {
+            tetrahedra: [each(&self.tetrahedra, 4), each(&self.octahedra, 8)].concat(),
+            octahedra: [each(&self.tetrahedra, 1), each(&self.octahedra, 6)].concat(),
+        }
+    }
+}
+
+/// A quantity beside the coordinates, such as a density or a temperature.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Channel {
+    /// Its name in the file.
+    pub name: String,
+    /// A value for each vertex. All finite.
+    pub values: Vec<f64>,
 }
 
 impl Features {
@@ -66,6 +120,11 @@ impl Features {
         self.creases.dedup();
         self.corners.sort_unstable();
         self.corners.dedup();
+        for face in &mut self.faces {
+            face.sort_unstable();
+        }
+        self.faces.sort_unstable();
+        self.faces.dedup();
     }
 }
 
@@ -78,6 +137,10 @@ pub struct SolidMesh {
     pub cells: Cells,
     /// Creases and corners.
     pub features: Features,
+    /// Labels of the cells; empty if the file has none.
+    pub labels: Labels,
+    /// Scalar channels, in file order, each name once.
+    pub channels: Vec<Channel>,
     /// What a reader left out or found odd, a sentence each.
     pub notes: Vec<String>,
 }
@@ -87,6 +150,7 @@ impl SolidMesh {
     pub fn add_features(&mut self, more: Features) {
         self.features.creases.extend(more.creases);
         self.features.corners.extend(more.corners);
+        self.features.faces.extend(more.faces);
         self.features.normalise();
     }
 }

@@ -22,11 +22,11 @@ use std::path::PathBuf;
 /// table moves every vertex of the refined control mesh.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The cage at rest: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu; a surface's control mesh: .obj or
-    /// .off
+    /// The cage at rest: Gmsh .msh, VTK .vtu or .vtk, Medit .mesh, TetGen .node with .ele; a surface's
+    /// control mesh: .obj, .ply, .stl or .off
     pub cage: PathBuf,
-    /// The model at rest, in the cage's unit: Wavefront .obj; not for surfaces, whose model is the refined
-    /// surface
+    /// The model at rest, in the cage's unit: .obj, .ply, .stl or .off; not for surfaces, whose model is
+    /// the refined surface
     #[arg(long, value_name = "MODEL")]
     pub model: Option<PathBuf>,
     /// The subdivision scheme: of solids (tet-oct and so on) or of surfaces
@@ -59,7 +59,8 @@ pub struct Arguments {
     /// is converted
     #[arg(long, value_name = "UNIT", default_value = "")]
     pub unit: String,
-    /// File with creases and corners of the cage: a line each, `crease A B` or `corner A`
+    /// File with features of the cage: a line each, `crease A B`, `crease-face A B C` (solids) or
+    /// `corner A`
     #[arg(long, value_name = "FILE")]
     pub features: Option<PathBuf>,
     /// How the table is stored: see the report for what each format costs; by default q30, or what

@@ -290,7 +290,7 @@ fn draw(
         up: arguments.up.unwrap_or(default.up),
     };
     let cage_edges = match cage {
-        Some(cage) => edges_of(&Level::new(&cage)?.surface),
+        Some(cage) => edges_of(Level::new(&cage)?.boundary()),
         None => Vec::new(),
     };
     let scene = Scene {

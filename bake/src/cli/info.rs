@@ -15,9 +15,9 @@ use std::path::PathBuf;
 /// mesh on a device needs, level by level.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
+    /// The mesh: Gmsh .msh, VTK .vtu or .vtk, Medit .mesh, TetGen .node with .ele
     mesh: PathBuf,
-    /// File with creases and corners: a line each, `crease A B` or `corner A`
+    /// File with features: a line each, `crease A B`, `crease-face A B C` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
     /// The scheme that the mesh is to be refined with: box-spline adds the choice of major diagonals
@@ -130,6 +130,17 @@ fn features_and_volumes(text: &mut String, inspection: &Inspection) {
         );
     }
     line("corners", inspection.corners.to_string());
+    line("crease faces inside", inspection.crease_faces.to_string());
+    let labels: Vec<String> = inspection
+        .labels
+        .iter()
+        .map(|(label, cells)| format!("{label} ({cells} cells)"))
+        .collect();
+    for (name, list) in [("labels", &labels), ("channels", &inspection.channels)] {
+        if !list.is_empty() {
+            line(name, some(list));
+        }
+    }
     for (name, cells) in [
         ("inverted cells", &inspection.inverted_cells),
         ("flat cells", &inspection.flat_cells),

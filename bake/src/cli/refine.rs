@@ -6,7 +6,7 @@ use octruss_bake::check::{self, Volumes};
 use octruss_bake::error::{Error, Result, count};
 use octruss_bake::mesh::{Features, SolidMesh};
 use octruss_bake::progress::Progress;
-use octruss_bake::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
+use octruss_bake::refine::{BoundaryRule, Channels, DiagonalLists, Level, Refinement, Scheme};
 use octruss_bake::surface::RimRule;
 use octruss_bake::table::format::{Format, MOST_FRACTION_BITS};
 use octruss_bake::{read, write};
@@ -24,13 +24,15 @@ pub enum Numeric {
 
 /// Refines a mesh and writes the refined one
 ///
-/// The output is a solid as .vtu (octahedra as polyhedra, all vertices in the refined order), or
-/// its boundary as .obj (the triangles and their vertices, in the refined order). Neither holds
-/// creases and corners: refine once with all the levels wanted. A surface is written with all its
-/// polygons as .obj or .off; crease tags of .obj files are read as OpenSubdiv writes them.
+/// The output is a solid as .vtu or .vtk (octahedra as polyhedra, all vertices in the refined order,
+/// with the labels of cells and the scalar channels of vertices), or its boundary as .obj, .ply or
+/// .off (the triangles and their vertices, in the refined order). None holds creases and corners:
+/// refine once with all the levels wanted. A surface is written with all its polygons as .obj, .ply
+/// or .off; crease tags of .obj files are read as OpenSubdiv writes them.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The mesh: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu; a surface's control mesh: .obj or .off
+    /// The mesh: Gmsh .msh, VTK .vtu or .vtk, Medit .mesh, TetGen .node with .ele; a surface's
+    /// control mesh: .obj, .ply, .stl or .off
     pub mesh: PathBuf,
     /// The subdivision scheme: of solids (tet-oct and so on) or of surfaces
     #[arg(long, value_enum, default_value_t)]
@@ -58,10 +60,10 @@ pub struct Arguments {
     /// many as leave two bits of headroom over the mesh's largest coordinate
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_FRACTION_BITS)))]
     pub fraction_bits: Option<u32>,
-    /// File with creases and corners: a line each, `crease A B` or `corner A`
+    /// File with features: a line each, `crease A B`, `crease-face A B C` or `corner A`
     #[arg(long, value_name = "FILE")]
     pub features: Option<PathBuf>,
-    /// The file to write: .vtu or .obj, for surfaces .obj or .off
+    /// The file to write: .vtu, .vtk, .obj, .ply or .off; for surfaces .obj, .ply or .off
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
     /// Print the figures as one JSON object
@@ -96,9 +98,12 @@ fn refine_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         return Err(Error::new("--limit is for schemes of surfaces"));
     }
     let extension = read::extension(&arguments.output);
-    if !matches!(extension.as_str(), "vtu" | "obj") {
+    let is_solid = write::SOLID_EXTENSIONS.contains(&extension.as_str());
+    if !is_solid && !write::SURFACE_EXTENSIONS.contains(&extension.as_str()) {
         return Err(Error::new(format!("no writer for \".{extension}\" files"))
-            .advise("a refined solid is written as .vtu, its boundary as .obj")
+            .advise(
+                "a refined solid is written as .vtu or .vtk, its boundary as .obj, .ply or .off",
+            )
             .in_file(&arguments.output));
     }
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
@@ -108,9 +113,12 @@ fn refine_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         .map_err(|error| error.in_file(&arguments.mesh))?;
     let (refined, level, figures) = refine(mesh, scheme, diagonals.as_ref(), arguments)
         .map_err(|error| error.in_file(&arguments.mesh))?;
-    write::atomically(&arguments.output, |out| match extension.as_str() {
-        "vtu" => write::vtu::write(&refined, out),
-        _ => write::obj::write_used(&refined.points, &level.surface, out),
+    write::atomically(&arguments.output, |out| {
+        if is_solid {
+            write::solid(&extension, &refined, out)
+        } else {
+            write::boundary(&extension, &refined.points, level.boundary(), out)
+        }
     })?;
     if figures.cells_without_volume > 0 {
         eprintln!(
@@ -146,7 +154,12 @@ fn refine(
     } else {
         Vec::new()
     };
-    let (mut points, mut saturated) = (mesh.points, 0);
+    let mut channels = if is_fixed {
+        Channels::fixed(&mesh.channels)?
+    } else {
+        Channels::real(&mesh.channels)
+    };
+    let (mut points, mut saturated, mut labels) = (mesh.points, 0, mesh.labels);
     let mut progress = Bars::default();
     progress.stage("refining", arguments.levels as usize);
     for _ in 0..arguments.levels {
@@ -156,6 +169,8 @@ fn refine(
         } else {
             points = step.points(&points)?;
         }
+        channels.refine(&mut step, &mut saturated)?;
+        labels = labels.refined();
         level = step.split()?;
         progress.step();
     }
@@ -169,7 +184,10 @@ fn refine(
         features: Features {
             creases: level.creases.clone(),
             corners: level.corners.clone(),
+            faces: level.crease_faces().to_vec(),
         },
+        labels,
+        channels: channels.values(),
         notes: Vec::new(),
     };
     let volumes = Volumes::of(&refined.cells, &refined.points);
@@ -178,7 +196,7 @@ fn refine(
         vertices: refined.points.len(),
         tetrahedra: level.cells.tetrahedra.len(),
         octahedra: level.cells.octahedra.len(),
-        boundary_triangles: level.surface.len(),
+        boundary_triangles: level.boundary().len(),
         cells_without_volume: volumes.inverted.len() + volumes.flat.len() + volumes.folded.len(),
         fraction_bits: is_fixed.then_some(format.fraction_bits),
         saturated_coordinates: saturated,

@@ -28,21 +28,18 @@ struct Figures {
 /// Runs the command.
 pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
     let extension = read::extension(&arguments.output);
-    if !matches!(extension.as_str(), "obj" | "off") {
+    if !write::SURFACE_EXTENSIONS.contains(&extension.as_str()) {
         return Err(Error::new(format!("no writer for \".{extension}\" files"))
-            .advise("a refined surface is written as .obj or .off")
+            .advise("a refined surface is written as .obj, .ply or .off")
             .in_file(&arguments.output));
     }
     let mesh = read::surface_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
     let (points, level, figures) =
         refine(&mesh, scheme, arguments).map_err(|error| error.in_file(&arguments.mesh))?;
-    write::atomically(&arguments.output, |out| match extension.as_str() {
-        "off" => {
-            let faces: Vec<&[u32]> = level.faces().collect();
-            write::off::write(&points, faces.into_iter(), out)
-        }
-        _ => write::obj::write(&points, level.faces(), out),
+    let faces: Vec<&[u32]> = level.faces().collect();
+    write::atomically(&arguments.output, |out| {
+        write::surface(&extension, &points, &faces, out)
     })?;
     if figures.saturated_coordinates > 0 {
         eprintln!(

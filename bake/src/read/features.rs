@@ -1,7 +1,7 @@
-//! Feature files: creases and corners for any mesh, one a line.
+//! Feature files: creases, crease faces and corners for any mesh, one a line.
 //!
-//! `crease A B` makes the edge between two vertices a crease, `corner A` keeps a vertex in its
-//! place; vertices are counted from 0 in the mesh's file order. Empty lines and everything after
+//! `crease A B` makes the edge between two vertices a crease, `crease-face A B C` makes a face of a
+//! cell part of a crease surface inside the solid, `corner A` keeps a vertex in its place; vertices are counted from 0 in the mesh's file order. Empty lines and everything after
 //! `#` are skipped.
 
 use super::words::shown;
@@ -31,15 +31,22 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
                 features.creases.push(edge);
             }
             ["corner", a] => features.corners.push(vertex(a)?),
-            ["crease-face", ..] => {
-                return Err(located(Error::new(
-                    "crease-face makes a face of the mesh a crease; `info`, `refine`, `bake` and `deform` of tetrahedral cages read crease edges and corners only",
-                )
-                .advise("give the edges that shall stay sharp as `crease A B`")));
+            ["crease-face", a, b, c] => {
+                let face = [vertex(a)?, vertex(b)?, vertex(c)?];
+                if face[0] == face[1] || face[1] == face[2] || face[2] == face[0] {
+                    return Err(located(Error::new("the crease face names a vertex twice")));
+                }
+                features.faces.push(face);
+            }
+            ["crease-face", _, _, _, _] => {
+                return Err(located(
+                    Error::new("the faces of tetrahedra and octahedra have three vertices, this crease face has four")
+                        .advise("give the triangles: crease-face A B C"),
+                ));
             }
             [word, ..] => {
                 return Err(located(Error::new(format!(
-                    "expected `crease A B` or `corner A`, found \"{}\" with {} words after it",
+                    "expected `crease A B`, `crease-face A B C` or `corner A`, found \"{}\" with {} words after it",
                     shown(word),
                     words.len() - 1
                 ))));

@@ -9,10 +9,18 @@ pub mod channel;
 pub mod diagonals;
 pub mod features;
 pub mod gmsh;
+mod lines;
+pub mod medit;
+pub mod model_off;
+pub mod models;
 pub mod motion;
 pub mod obj;
 pub mod obj_tags;
 pub mod off;
+pub mod ply;
+pub mod stl;
+pub mod tetgen;
+pub mod vtk;
 pub mod vtu;
 pub(crate) mod words;
 
@@ -20,7 +28,7 @@ use crate::error::{Error, Result};
 use crate::mesh::SolidMesh;
 use crate::refine::DiagonalLists;
 use crate::surface::SurfaceMesh;
-use obj::Model;
+use models::Model;
 use std::path::Path;
 
 /// The bytes of a file.
@@ -37,20 +45,29 @@ pub fn extension(file: &Path) -> String {
         .to_ascii_lowercase()
 }
 
-/// Reads a solid mesh in the format that the file's extension names.
+/// The extensions of the files that [`solid`] reads.
+pub const SOLID_EXTENSIONS: [&str; 6] = ["msh", "vtu", "vtk", "mesh", "node", "ele"];
+
+/// Reads a solid mesh in the format that the file's extension names. Of a TetGen mesh either file
+/// may be named.
 pub fn solid(file: &Path) -> Result<SolidMesh> {
-    let reader =
-        match extension(file).as_str() {
-            "msh" => gmsh::read,
-            "vtu" => vtu::read,
-            other => {
-                return Err(Error::new(format!(
-                    "no reader of solid meshes for \".{other}\" files"
-                ))
-                .advise("solid meshes are read from Gmsh .msh (2.2 and 4.1, ASCII) and VTK .vtu")
-                .in_file(file));
-            }
-        };
+    let reader = match extension(file).as_str() {
+        "msh" => gmsh::read,
+        "vtu" => vtu::read,
+        "vtk" => vtk::read,
+        "mesh" => medit::read,
+        "node" | "ele" => {
+            let (node, ele) = (file.with_extension("node"), file.with_extension("ele"));
+            return tetgen::read((&node, &bytes(&node)?), (&ele, &bytes(&ele)?));
+        }
+        other => {
+            return Err(Error::new(format!(
+                "no reader of solid meshes for \".{other}\" files"
+            ))
+            .advise("solid meshes are read from Gmsh .msh (2.2 and 4.1), VTK .vtu and .vtk, Medit .mesh and TetGen .node with .ele")
+            .in_file(file));
+        }
+    };
     reader(&bytes(file)?).map_err(|error| error.in_file(file))
 }
 
@@ -80,6 +97,12 @@ pub fn surface_with_features(file: &Path, features: Option<&Path>) -> Result<Sur
     if let Some(features) = features {
         let more = features::read(&bytes(features)?, mesh.points.len())
             .map_err(|error| error.in_file(features))?;
+        if !more.faces.is_empty() {
+            return Err(Error::new(
+                "crease-face is for solids; a surface has crease edges and corners",
+            )
+            .in_file(features));
+        }
         mesh.features.creases.extend(more.creases);
         mesh.features.corners.extend(more.corners);
         mesh.features.normalise();
@@ -101,10 +124,12 @@ pub fn surface(file: &Path) -> Result<SurfaceMesh> {
             })
         },
         "off" => off::read,
+        "ply" => |bytes: &[u8]| ply::read(bytes).map(SurfaceMesh::from),
+        "stl" => |bytes: &[u8]| stl::read(bytes).map(SurfaceMesh::from),
         other => {
             return Err(
                 Error::new(format!("no reader of control meshes for \".{other}\" files"))
-                    .advise("control meshes of surfaces are read from Wavefront .obj and .off; for a cage of cells choose a scheme of solids")
+                    .advise("control meshes of surfaces are read from .obj, .ply, .stl and .off; for a cage of cells choose a scheme of solids")
                     .in_file(file),
             );
         }
@@ -114,12 +139,18 @@ pub fn surface(file: &Path) -> Result<SurfaceMesh> {
 
 /// Reads a model in the format that the file's extension names.
 pub fn model(file: &Path) -> Result<Model> {
-    match extension(file).as_str() {
-        "obj" => obj::read(&bytes(file)?).map_err(|error| error.in_file(file)),
-        other => Err(
-            Error::new(format!("no reader of models for \".{other}\" files"))
-                .advise("models are read from Wavefront .obj")
-                .in_file(file),
-        ),
-    }
+    let reader = match extension(file).as_str() {
+        "obj" => obj::read,
+        "ply" => ply::read,
+        "stl" => stl::read,
+        "off" => model_off::read,
+        other => {
+            return Err(
+                Error::new(format!("no reader of models for \".{other}\" files"))
+                    .advise("models are read from .obj, .ply, .stl and .off")
+                    .in_file(file),
+            );
+        }
+    };
+    reader(&bytes(file)?).map_err(|error| error.in_file(file))
 }

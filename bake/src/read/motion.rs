@@ -167,7 +167,9 @@ pub fn numbered_meshes(directory: &Path) -> Result<Vec<(u64, PathBuf)>> {
     let mut found: BTreeMap<u64, PathBuf> = BTreeMap::new();
     for entry in std::fs::read_dir(directory).map_err(cannot)? {
         let path = entry.map_err(cannot)?.path();
-        if !matches!(super::extension(&path).as_str(), "msh" | "vtu") {
+        let extension = super::extension(&path);
+        // A TetGen pose has two files and is found by one of them.
+        if extension == "ele" || !super::SOLID_EXTENSIONS.contains(&extension.as_str()) {
             continue;
         }
         let Some(number) = trailing_number(&path) else {

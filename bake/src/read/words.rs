@@ -1,6 +1,9 @@
 //! Splits a text file into words at white space and knows the line of each.
+//!
+//! Some formats have a text for a frame and binary numbers inside: [`Words::take`] takes bytes from
+//! between the words. Errors of such files name bytes instead of lines.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use std::str::FromStr;
 
 /// A cursor over the words of a text file.
@@ -11,6 +14,10 @@ pub struct Words<'a> {
     line: usize,
     /// Line of the word that was read last.
     word_line: usize,
+    /// First byte of what was read last.
+    word_start: usize,
+    /// Whether places are named by their byte.
+    is_binary: bool,
 }
 
 impl<'a> Words<'a> {
@@ -21,6 +28,8 @@ impl<'a> Words<'a> {
             position: 0,
             line: 1,
             word_line: 1,
+            word_start: 0,
+            is_binary: false,
         }
     }
 
@@ -29,9 +38,50 @@ impl<'a> Words<'a> {
         self.word_line
     }
 
+    /// From here on places are named by their byte: the file has binary parts, so it has no lines.
+    pub fn name_bytes(&mut self) {
+        self.is_binary = true;
+    }
+
+    /// Where the word or the bytes stand that were read last.
+    pub fn place(&self) -> Place {
+        if self.is_binary {
+            Place::Byte(self.word_start)
+        } else {
+            Place::Line(self.word_line)
+        }
+    }
+
     /// An error at the word that was read last.
     pub fn error(&self, message: impl Into<String>) -> Error {
-        Error::new(message).at_line(self.word_line)
+        Error::new(message).at(self.place())
+    }
+
+    /// The next bytes, whatever they are; `expected` says in the error what was wanted if there are
+    /// fewer.
+    pub fn take(&mut self, number: usize, expected: &str) -> Result<&'a [u8]> {
+        self.word_start = self.position;
+        let rest = self.text.get(self.position..).unwrap_or_default();
+        let Some(bytes) = rest.get(..number) else {
+            return Err(self
+                .error(format!("expected {expected}, found the end of the file"))
+                .advise("the file seems to be cut off; write it again"));
+        };
+        self.position += number;
+        Ok(bytes)
+    }
+
+    /// The next bytes as an array.
+    pub fn take_array<const N: usize>(&mut self, expected: &str) -> Result<[u8; N]> {
+        let bytes = self.take(N, expected)?;
+        let mut array = [0; N];
+        array.copy_from_slice(bytes);
+        Ok(array)
+    }
+
+    /// How many bytes are left.
+    pub fn remaining(&self) -> usize {
+        self.text.len().saturating_sub(self.position)
     }
 
     fn skip_space(&mut self) {
@@ -50,6 +100,7 @@ impl<'a> Words<'a> {
     pub fn next_word(&mut self) -> Result<Option<&'a str>> {
         self.skip_space();
         self.word_line = self.line;
+        self.word_start = self.position;
         let rest = self.text.get(self.position..).unwrap_or_default();
         let length = rest
             .iter()
@@ -96,8 +147,64 @@ impl<'a> Words<'a> {
         )))
     }
 
+    /// Whether there is a word of that spelling next; the cursor stays before it.
+    pub fn is_next(&mut self, wanted: &str) -> bool {
+        self.skip_space();
+        let rest = self.text.get(self.position..).unwrap_or_default();
+        rest.strip_prefix(wanted.as_bytes())
+            .is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
+    }
+
+    /// Whether the next word starts with a letter; the cursor stays before it.
+    pub fn is_keyword_next(&mut self) -> bool {
+        self.skip_space();
+        let next = self.text.get(self.position);
+        next.is_some_and(|byte| byte.is_ascii_alphabetic())
+    }
+
+    /// The bytes of the word that was read last.
+    pub fn span(&self) -> std::ops::Range<usize> {
+        self.word_start..self.position
+    }
+
+    /// Moves past the next `pattern`; false if there is none.
+    pub fn skip_past(&mut self, pattern: &[u8]) -> bool {
+        let rest = self.text.get(self.position..).unwrap_or_default();
+        let found = rest
+            .windows(pattern.len())
+            .position(|window| window == pattern);
+        if let Some(at) = found {
+            self.position += at + pattern.len();
+        }
+        found.is_some()
+    }
+
+    /// The rest of the current line; the cursor moves to the start of the next.
+    pub fn line(&mut self) -> Result<&'a str> {
+        let line = self.rest_of_line()?;
+        if self.remaining() > 0 {
+            self.position += 1;
+            self.line += 1;
+        }
+        Ok(line)
+    }
+
+    /// Moves past the end of the current line: binary numbers start right behind it.
+    pub fn skip_line_end(&mut self) -> Result<()> {
+        let rest = self.line()?;
+        if rest.is_empty() {
+            return Ok(());
+        }
+        Err(self.error(format!(
+            "expected the end of the line, found \"{}\"",
+            shown(rest)
+        )))
+    }
+
     /// The rest of the current line, without its end; the cursor moves past it.
     pub fn rest_of_line(&mut self) -> Result<&'a str> {
+        self.word_line = self.line;
+        self.word_start = self.position;
         let rest = self.text.get(self.position..).unwrap_or_default();
         let length = rest
             .iter()

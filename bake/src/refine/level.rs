@@ -2,7 +2,7 @@
 
 use super::{DiagonalLists, Interior, RealBlend, Scheme};
 use crate::error::{Error, Result};
-use crate::mesh::{Cells, Point, SolidMesh};
+use crate::mesh::{Cells, Point, SolidMesh, Vertex};
 use octruss::blend::{Blend, FixedBlend};
 use octruss::mesh::{
     Counts, MeshError, Numbering, Part, Solid, SolidBuffers, boundary_triangles, edge_capacity,
@@ -12,6 +12,8 @@ use octruss::solid::box_spline::{self, Neighbours, neighbour_capacity};
 use octruss::solid::tet_oct::{
     Boundary, PointBuffers, VertexState, refine_points, split, split_counts,
 };
+use octruss::surface::LoopWeights;
+use std::collections::HashSet;
 
 /// Connectivity of a solid at one level of refinement, owned.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -20,8 +22,11 @@ pub struct Level {
     pub vertex_count: u32,
     /// The cells.
     pub cells: Cells,
-    /// Boundary triangles, counter-clockwise from outside.
+    /// Boundary triangles, counter-clockwise from outside, and behind them those of crease surfaces
+    /// inside.
     pub surface: Vec<[u32; 3]>,
+    /// How many triangles of `surface` are on the boundary.
+    pub boundary_count: usize,
     /// Crease edges.
     pub creases: Vec<[u32; 2]>,
     /// Corners.
@@ -60,6 +65,7 @@ impl Level {
             vertex_count,
             cells: mesh.cells.clone(),
             surface: Vec::new(),
+            boundary_count: 0,
             creases: mesh.features.creases.clone(),
             corners: mesh.features.corners.clone(),
             interior: Interior::TetOct,
@@ -70,9 +76,22 @@ impl Level {
         level.surface = boundary_triangles(&solid, &mut scratch)
             .map_err(mesh_error)?
             .to_vec();
+        level.boundary_count = level.surface.len();
+        let inside = inside_faces(mesh, &level.surface)?;
+        level.surface.extend(inside);
         // Checks that every crease is an edge of a cell before any work is done.
         EdgeMemory::new(&level.solid())?.number(&level.solid())?;
         Ok(level)
+    }
+
+    /// The boundary triangles, counter-clockwise from outside.
+    pub fn boundary(&self) -> &[[u32; 3]] {
+        &self.surface[..self.boundary_count]
+    }
+
+    /// The triangles of crease surfaces inside.
+    pub fn crease_faces(&self) -> &[[u32; 3]] {
+        &self.surface[self.boundary_count..]
     }
 
     /// The view that core takes.
@@ -117,7 +136,7 @@ impl Level {
         Ok(Counts {
             vertices: self.vertex_count as usize,
             edges,
-            faces: (of_cells + self.surface.len()) / 2,
+            faces: (of_cells + self.boundary_count) / 2,
             tetrahedra: self.cells.tetrahedra.len(),
             octahedra: self.cells.octahedra.len(),
             surface: self.surface.len(),
@@ -130,6 +149,36 @@ impl Level {
 /// A refined mesh of more vertices than this is refused before memory is asked for it: that is some
 /// 600 million cells, far beyond what this is for.
 const MOST_VERTICES: usize = 1 << 27;
+
+/// A triangle splits into four, which follow one another.
+const FACE_CHILDREN: usize = 4;
+
+/// The crease faces that lie inside the solid.
+fn inside_faces(mesh: &SolidMesh, boundary: &[[Vertex; 3]]) -> Result<Vec<[Vertex; 3]>> {
+    if mesh.features.faces.is_empty() {
+        return Ok(Vec::new());
+    }
+    let sorted = |mut face: [Vertex; 3]| {
+        face.sort_unstable();
+        face
+    };
+    let of_cells: HashSet<[Vertex; 3]> = crate::check::faces(mesh).map(sorted).collect();
+    let on_boundary: HashSet<[Vertex; 3]> = boundary.iter().copied().map(sorted).collect();
+    let faces = &mesh.features.faces;
+    if let Some([a, b, c]) = faces
+        .iter()
+        .find(|face| !of_cells.contains(&sorted(**face)))
+    {
+        return Err(Error::new(format!(
+            "the crease face of vertices {a}, {b} and {c} (counted from 0) is no face of a cell"
+        ))
+        .advise("a crease surface runs along faces of the mesh; mesh the surface together with the volume"));
+    }
+    let inside = faces
+        .iter()
+        .filter(|face| !on_boundary.contains(&sorted(**face)));
+    Ok(inside.copied().collect())
+}
 
 /// Memory for the numbering of one split.
 struct EdgeMemory {
@@ -181,6 +230,7 @@ impl<'a> Refinement<'a> {
                 octahedra: vec![[0; 6]; counts.octahedra],
             },
             surface: vec![[0; 3]; counts.surface],
+            boundary_count: FACE_CHILDREN * self.from.boundary_count,
             creases: vec![[0; 2]; counts.creases],
             corners: vec![0; counts.corners],
             interior: match &self.from.interior {
@@ -207,7 +257,13 @@ impl<'a> Refinement<'a> {
         blend: &mut B,
         values: &[B::Point],
     ) -> Result<Vec<B::Point>> {
-        let solid = self.from.solid();
+        let mut solid = self.from.solid();
+        let mut boundary = self.boundary;
+        if boundary == Boundary::Interior && !self.from.crease_faces().is_empty() {
+            // The boundary has no rule of its own, the crease surfaces keep theirs.
+            solid.surface = self.from.crease_faces();
+            boundary = Boundary::Surface(LoopWeights::Loop);
+        }
         let numbering = self.memory.number(&solid)?;
         let length = numbering.vertex_count() as usize;
         let zero = blend.zero();
@@ -219,7 +275,7 @@ impl<'a> Refinement<'a> {
         };
         let scheme = match &self.from.interior {
             Interior::TetOct => {
-                refine_points(blend, &solid, &numbering, self.boundary, values, buffers)
+                refine_points(blend, &solid, &numbering, boundary, values, buffers)
                     .map_err(mesh_error)?;
                 return Ok(out);
             }
@@ -235,7 +291,7 @@ impl<'a> Refinement<'a> {
             &solid,
             &numbering,
             &neighbours,
-            self.boundary,
+            boundary,
             values,
             buffers,
         )

@@ -4,11 +4,13 @@
 //! business alone. This module lends core the memory ([`Level`]) and brings the value types that
 //! only the host has: double precision ([`RealBlend`]) and sparse rows ([`rows`]).
 
+mod channels;
 mod diagonals;
 mod level;
 mod real;
 pub mod rows;
 
+pub use channels::Channels;
 pub use diagonals::{DiagonalLists, Interior};
 pub use level::{Level, Refinement};
 pub use real::RealBlend;

@@ -8,6 +8,7 @@ mod level;
 pub use level::{SurfaceLevel, SurfaceStep};
 
 use crate::mesh::{Features, Point};
+use crate::read::models::Model;
 use octruss::surface::{LoopWeights, Rim};
 
 /// A control mesh of triangles, quads and polygons.
@@ -21,6 +22,17 @@ pub struct SurfaceMesh {
     pub features: Features,
     /// What a reader left out or found odd, a sentence each.
     pub notes: Vec<String>,
+}
+
+impl From<Model> for SurfaceMesh {
+    /// The points and polygons of a model, without creases and corners.
+    fn from(model: Model) -> Self {
+        Self {
+            points: model.points,
+            faces: model.faces,
+            ..Self::default()
+        }
+    }
 }
 
 /// The subdivision scheme of a surface.

@@ -298,7 +298,11 @@ fn locate(
     progress: &mut dyn Progress,
 ) -> Result<(Vec<Embedding>, OutsideReport)> {
     progress.stage("locating points", model.len());
-    let locator = Locator::new(&refined.last.cells, &refined.last.surface, &refined.points);
+    let locator = Locator::new(
+        &refined.last.cells,
+        refined.last.boundary(),
+        &refined.points,
+    );
     let mut report = OutsideReport {
         treatment: outside,
         ..OutsideReport::default()

@@ -10,8 +10,8 @@ use octruss::mesh::OCTAHEDRON_FACES;
 use std::fmt::Display;
 use std::io::Write;
 
-/// Writes points and cells: all tetrahedra, then all octahedra. Features are not part of the
-/// format.
+/// Writes points and cells: all tetrahedra, then all octahedra; labels as the data `label` of the
+/// cells, channels as data of the points. Features are not part of the format.
 pub fn write(mesh: &SolidMesh, out: &mut dyn Write) -> Result<()> {
     write_grid(mesh, out).map_err(failed)
 }
@@ -30,6 +30,7 @@ fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         mesh.points.len(),
         cells.len()
     )?;
+    data(mesh, out)?;
     writeln!(out, "<Points>")?;
     let points = mesh.points.iter().map(|point| point.as_slice());
     array(
@@ -52,6 +53,40 @@ fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         polyhedra(mesh, out)?;
     }
     writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+/// Channels and labels.
+fn data(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
+    if !mesh.channels.is_empty() {
+        writeln!(out, "<PointData>")?;
+        for channel in &mesh.channels {
+            let attributes = format!("type=\"Float64\" Name=\"{}\"", escaped(&channel.name));
+            array(
+                out,
+                &attributes,
+                channel.values.iter().map(|value| [*value]),
+            )?;
+        }
+        writeln!(out, "</PointData>")?;
+    }
+    if !mesh.labels.is_empty() {
+        writeln!(out, "<CellData>")?;
+        let labels = mesh.labels.iter().map(|label| [label]);
+        array(out, "type=\"Int32\" Name=\"label\"", labels)?;
+        writeln!(out, "</CellData>")?;
+    }
+    Ok(())
+}
+
+/// A name as it may stand in an attribute.
+fn escaped(name: &str) -> String {
+    let replaced = |character: char| match character {
+        '&' => "&amp;".to_owned(),
+        '<' => "&lt;".to_owned(),
+        '"' => "&quot;".to_owned(),
+        other => other.to_string(),
+    };
+    name.chars().map(replaced).collect()
 }
 
 fn polyhedra(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {

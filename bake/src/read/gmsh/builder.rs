@@ -1,7 +1,7 @@
 //! Turns Gmsh's nodes, elements and physical groups into a solid mesh.
 
 use super::elements::ElementType;
-use crate::error::{Error, Result, count};
+use crate::error::{Error, Place, Result, count};
 use crate::mesh::{Point, SolidMesh, Vertex};
 use std::collections::{BTreeMap, HashMap};
 
@@ -15,8 +15,8 @@ pub struct Builder {
     vertex_of_tag: HashMap<u64, Vertex>,
     group_names: HashMap<Group, String>,
     ignored: BTreeMap<ElementType, usize>,
-    /// Volume elements that are no tetrahedra: how many, and the line of the first.
-    foreign: BTreeMap<ElementType, (usize, usize)>,
+    /// Volume elements that are no tetrahedra: how many, and where the first stands.
+    foreign: BTreeMap<ElementType, (usize, Place)>,
 }
 
 impl Builder {
@@ -27,12 +27,12 @@ impl Builder {
     }
 
     /// Records a node under its tag.
-    pub fn node(&mut self, tag: u64, position: Point, line: usize) -> Result<()> {
+    pub fn node(&mut self, tag: u64, position: Point, place: Place) -> Result<()> {
         let vertex = Vertex::try_from(self.mesh.points.len())
-            .map_err(|_| Error::new("there are more than 2^32 nodes").at_line(line))?;
+            .map_err(|_| Error::new("there are more than 2^32 nodes").at(place))?;
         if self.vertex_of_tag.insert(tag, vertex).is_some() {
             return Err(Error::new(format!("node {tag} is listed twice"))
-                .at_line(line)
+                .at(place)
                 .advise("give every node a tag of its own"));
         }
         self.mesh.points.push(position);
@@ -45,46 +45,54 @@ impl Builder {
         kind: ElementType,
         groups: &[i64],
         nodes: &[u64],
-        line: usize,
+        place: Place,
     ) -> Result<()> {
         match (kind, nodes) {
             (ElementType::Tetrahedron, &[a, b, c, d]) => {
                 let corners = [
-                    self.vertex(a, line)?,
-                    self.vertex(b, line)?,
-                    self.vertex(c, line)?,
-                    self.vertex(d, line)?,
+                    self.vertex(a, place)?,
+                    self.vertex(b, place)?,
+                    self.vertex(c, place)?,
+                    self.vertex(d, place)?,
                 ];
                 self.mesh.cells.tetrahedra.push(corners);
+                self.mesh.labels.tetrahedra.push(label(groups, place)?);
             }
             (ElementType::Line, &[a, b]) if self.in_group(1, groups, "crease") => {
-                let edge = [self.vertex(a, line)?, self.vertex(b, line)?];
+                let edge = [self.vertex(a, place)?, self.vertex(b, place)?];
                 self.mesh.features.creases.push(edge);
             }
             (ElementType::Point, &[a]) if self.in_group(0, groups, "corner") => {
-                let corner = self.vertex(a, line)?;
+                let corner = self.vertex(a, place)?;
                 self.mesh.features.corners.push(corner);
             }
-            _ if kind.dimension() == 3 => self.foreign.entry(kind).or_insert((0, line)).0 += 1,
-            _ if kind.dimension() == 2 && self.in_group(2, groups, "crease") => {
-                return Err(Error::new(format!(
-                    "a physical surface whose name starts with \"crease\" holds this {}; the scheme tet-oct has crease edges, not crease faces",
-                    kind.names().0
-                ))
-                .at_line(line)
-                .advise("put the edges that shall stay sharp into a physical curve, or rename the surface"));
+            (ElementType::Triangle, &[a, b, c]) if self.in_group(2, groups, "crease") => {
+                let face = [
+                    self.vertex(a, place)?,
+                    self.vertex(b, place)?,
+                    self.vertex(c, place)?,
+                ];
+                self.mesh.features.faces.push(face);
             }
+            (ElementType::Quadrangle, _) if self.in_group(2, groups, "crease") => {
+                return Err(Error::new(
+                    "a physical surface whose name starts with \"crease\" holds this quadrangle; the faces of a cage's cells are triangles",
+                )
+                .at(place)
+                .advise("mesh the surface with triangles, or rename the group"));
+            }
+            _ if kind.dimension() == 3 => self.foreign.entry(kind).or_insert((0, place)).0 += 1,
             _ => *self.ignored.entry(kind).or_default() += 1,
         }
         Ok(())
     }
 
-    fn vertex(&self, tag: u64, line: usize) -> Result<Vertex> {
+    fn vertex(&self, tag: u64, place: Place) -> Result<Vertex> {
         self.vertex_of_tag.get(&tag).copied().ok_or_else(|| {
             Error::new(format!(
                 "an element names node {tag}, which the file does not list"
             ))
-            .at_line(line)
+            .at(place)
             .advise("the mesh is incomplete; write it again")
         })
     }
@@ -98,12 +106,12 @@ impl Builder {
 
     /// The mesh, with notes on what was left out.
     pub fn finish(mut self) -> Result<SolidMesh> {
-        if let Some((kind, (number, line))) = self.foreign.iter().next() {
+        if let Some((kind, (number, place))) = self.foreign.iter().next() {
             return Err(Error::new(format!(
                 "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra",
                 count(*number, kind.names().0, kind.names().1)
             ))
-            .at_line(*line)
+            .at(*place)
             .advise("mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)"));
         }
         if self.mesh.cells.is_empty() {
@@ -118,11 +126,19 @@ impl Builder {
             .collect();
         if !ignored.is_empty() {
             self.mesh.notes.push(format!(
-                "left out: {} (in no physical group whose name starts with \"crease\" for curves or \"corner\" for points)",
+                "left out: {} (in no physical group whose name starts with \"crease\" for curves and surfaces or \"corner\" for points)",
                 ignored.join(", ")
             ));
         }
         self.mesh.features.normalise();
+        self.mesh.labels.drop_if_zero();
         Ok(self.mesh)
     }
+}
+
+/// A cell's label: its first physical group, 0 for none.
+fn label(groups: &[i64], place: Place) -> Result<i32> {
+    let group = groups.first().copied().unwrap_or(0);
+    i32::try_from(group)
+        .map_err(|_| Error::new(format!("the physical group {group} exceeds 32 bits")).at(place))
 }

@@ -1,6 +1,6 @@
 //! Gmsh's element types: which are read, which are ignored, which are refused.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 
 /// An element type of first order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,8 +24,8 @@ pub enum ElementType {
 }
 
 impl ElementType {
-    /// The type behind Gmsh's number, or an error at `line` that says what to do.
-    pub fn from_number(number: u32, line: usize) -> Result<Self> {
+    /// The type behind Gmsh's number, or an error at `place` that says what to do.
+    pub fn from_number(number: u32, place: Place) -> Result<Self> {
         Ok(match number {
             15 => Self::Point,
             1 => Self::Line,
@@ -39,16 +39,19 @@ impl ElementType {
                 return Err(Error::new(format!(
                     "element type {number} is of second or higher order; a cage has cells with straight edges"
                 ))
-                .at_line(line)
+                .at(place)
                 .advise("mesh at first order: Mesh.ElementOrder = 1 in Gmsh, or `gmsh -order 1`"));
             }
             _ => {
                 return Err(Error::new(format!("element type {number} is not known"))
-                    .at_line(line)
+                    .at(place)
                     .advise("a cage consists of tetrahedra (Gmsh element type 4)"));
             }
         })
     }
+
+    /// The greatest number of nodes of a type.
+    pub const MOST_NODES: usize = 8;
 
     /// Number of nodes.
     pub fn node_count(self) -> usize {

@@ -1,14 +1,16 @@
-//! Gmsh meshes (`.msh`), versions 2.2 and 4.1, ASCII.
+//! Gmsh meshes (`.msh`), versions 2.2 and 4.1, ASCII and binary.
 //!
 //! Vertices are numbered from 0 in the order of the file, whatever their tags. Lines in a
 //! physical curve whose name starts with `crease` become crease edges, points in a physical point
-//! whose name starts with `corner` become corners (capitals do not matter). Other points, lines,
-//! triangles and quadrangles are counted and left out; volume elements other than tetrahedra and
+//! whose name starts with `corner` become corners, triangles in a physical surface whose name starts
+//! with `crease` become crease faces (capitals do not matter). The first physical group of a
+//! tetrahedron is its label. Other points, lines, triangles and quadrangles are counted and left out; volume elements other than tetrahedra and
 //! elements of second order are errors. Sections that say nothing about the mesh itself
 //! (periodicity, node data, comments) are skipped.
 
 mod builder;
 mod elements;
+mod numbers;
 mod version_2;
 mod version_4;
 
@@ -16,6 +18,7 @@ use crate::error::{Error, Result};
 use crate::mesh::SolidMesh;
 use crate::read::words::{Words, shown};
 use builder::Builder;
+use numbers::{Mode, Numbers};
 
 /// The two layouts of nodes and elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -27,7 +30,7 @@ enum Version {
 /// Reads a mesh from the bytes of a `.msh` file.
 pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
     let mut words = Words::new(bytes);
-    let version = header(&mut words)?;
+    let (version, mode) = header(&mut words)?;
     let mut builder = Builder::default();
     let mut entities = version_4::EntityGroups::default();
     let (mut nodes, mut elements) = (false, false);
@@ -47,20 +50,25 @@ pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
                     .advise("write the mesh again with Gmsh"));
             }
             ("PhysicalNames", _) => physical_names(&mut words, &mut builder)?,
-            ("Entities", Version::Four) => entities = version_4::entities(&mut words)?,
+            ("Entities", Version::Four) => {
+                entities = version_4::entities(&mut Numbers::new(&mut words, mode)?)?;
+            }
             ("PartitionedEntities", Version::Four) => {
                 return Err(words
                     .error("the mesh is partitioned")
                     .advise("join the parts before saving: Mesh > Unpartition in Gmsh"));
             }
-            ("Nodes", Version::Two) => version_2::nodes(&mut words, &mut builder)?,
-            ("Nodes", Version::Four) => version_4::nodes(&mut words, &mut builder)?,
-            ("Elements", Version::Two) => version_2::elements(&mut words, &mut builder)?,
+            ("Nodes", Version::Two) => version_2::nodes(&mut words, mode, &mut builder)?,
+            ("Nodes", Version::Four) => {
+                version_4::nodes(&mut Numbers::new(&mut words, mode)?, &mut builder)?;
+            }
+            ("Elements", Version::Two) => version_2::elements(&mut words, mode, &mut builder)?,
             ("Elements", Version::Four) => {
-                version_4::elements(&mut words, &mut builder, &entities)?
+                let mut numbers = Numbers::new(&mut words, mode)?;
+                version_4::elements(&mut numbers, &mut builder, &entities)?;
             }
             _ => {
-                skip_section(&mut words, section)?;
+                skip_section(&mut words, mode, section)?;
                 continue;
             }
         }
@@ -77,7 +85,7 @@ pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
     builder.finish()
 }
 
-fn header(words: &mut Words<'_>) -> Result<Version> {
+fn header(words: &mut Words<'_>) -> Result<(Version, Mode)> {
     let first = words.word("$MeshFormat")?;
     if first != "$MeshFormat" {
         return Err(words
@@ -98,14 +106,38 @@ fn header(words: &mut Words<'_>) -> Result<Version> {
         }
     };
     let binary: u32 = words.number("0 (ASCII) or 1 (binary)")?;
-    if binary != 0 {
-        return Err(words.error("the mesh is binary; ASCII is read").advise(
-            "save it as ASCII: Mesh.Binary = 0, `gmsh MESH -save -format msh41 -o NEW.msh`",
-        ));
-    }
-    let _bytes_of_a_number: u32 = words.number("the size of a number in bytes")?;
+    let size: u32 = words.number("the size of a number in bytes")?;
+    let mode = match binary {
+        0 => Mode::Ascii,
+        1 if size == 8 => byte_order(words)?,
+        1 => {
+            return Err(words.error(format!(
+                "expected binary numbers of 8 bytes, found \"{size}\""
+            )));
+        }
+        _ => {
+            return Err(words.error(format!(
+                "expected 0 (ASCII) or 1 (binary), found \"{binary}\""
+            )));
+        }
+    };
     end_of_section(words, "MeshFormat")?;
-    Ok(version)
+    Ok((version, mode))
+}
+
+/// A binary file starts with the number one in its own byte order.
+fn byte_order(words: &mut Words<'_>) -> Result<Mode> {
+    words.name_bytes();
+    words.skip_line_end()?;
+    match words.take_array::<4>("the number 1 in four bytes")? {
+        [1, 0, 0, 0] => Ok(Mode::LittleEndian),
+        [0, 0, 0, 1] => Ok(Mode::BigEndian),
+        other => Err(words
+            .error(format!(
+                "expected the number 1 in four bytes, which shows the byte order, found {other:?}"
+            ))
+            .advise("the file is damaged, or its line ends were changed; write it again")),
+    }
 }
 
 fn end_of_section(words: &mut Words<'_>, section: &str) -> Result<()> {
@@ -118,9 +150,14 @@ fn end_of_section(words: &mut Words<'_>, section: &str) -> Result<()> {
         .advise("a count at the start of the section may be wrong"))
 }
 
-fn skip_section(words: &mut Words<'_>, section: &str) -> Result<()> {
-    let start = words.word_line();
-    while let Some(word) = words.next_word()? {
+fn skip_section(words: &mut Words<'_>, mode: Mode, section: &str) -> Result<()> {
+    let start = words.place();
+    if mode != Mode::Ascii && words.skip_past(format!("$End{section}").as_bytes()) {
+        return Ok(());
+    }
+    while mode == Mode::Ascii
+        && let Some(word) = words.next_word()?
+    {
         if word.strip_prefix("$End") == Some(section) {
             return Ok(());
         }
@@ -130,7 +167,7 @@ fn skip_section(words: &mut Words<'_>, section: &str) -> Result<()> {
         shown(section),
         shown(section)
     ))
-    .at_line(start)
+    .at(start)
     .advise("the file seems to be cut off; write it again"))
 }
 

@@ -1,39 +1,38 @@
-//! Entities, nodes and elements as MSH 4.1 lists them.
+//! Entities, nodes and elements as MSH 4.1 lists them, in either mode.
 
 use super::builder::Builder;
 use super::elements::ElementType;
+use super::numbers::Numbers;
 use crate::error::Result;
-use crate::read::words::Words;
 use std::collections::HashMap;
 
 /// The physical groups of each entity, by dimension and tag of the entity.
-pub type EntityGroups = HashMap<(u8, i64), Vec<i64>>;
+pub type EntityGroups = HashMap<(i64, i64), Vec<i64>>;
 
 /// Reads the inside of `$Entities`.
-pub fn entities(words: &mut Words<'_>) -> Result<EntityGroups> {
-    let mut numbers = [0_usize; 4];
-    for number in &mut numbers {
-        *number = words.number("the number of points, curves, surfaces or volumes")?;
+pub fn entities(numbers: &mut Numbers<'_, '_>) -> Result<EntityGroups> {
+    let mut counts = [0; 4];
+    for count in &mut counts {
+        *count = numbers.size("the number of points, curves, surfaces or volumes")?;
     }
     let mut groups = EntityGroups::new();
-    for (dimension, number) in (0_u8..).zip(numbers) {
+    for (dimension, count) in (0..).zip(counts) {
         // A point has a position, the others a bounding box.
         let extent = if dimension == 0 { 3 } else { 6 };
-        for _ in 0..number {
-            let tag: i64 = words.number("the tag of an entity")?;
+        for _ in 0..count {
+            let tag = numbers.int("the tag of an entity")?;
             for _ in 0..extent {
-                let _: f64 = words.number("a coordinate of an entity")?;
+                numbers.real("a coordinate of an entity")?;
             }
-            let physical: usize = words.number("the number of an entity's physical groups")?;
+            let physical = numbers.size("the number of an entity's physical groups")?;
             let mut own = Vec::new();
             for _ in 0..physical {
-                own.push(words.number("a physical group of an entity")?);
+                own.push(numbers.int("a physical group of an entity")?);
             }
             if dimension > 0 {
-                let bounding: usize =
-                    words.number("the number of an entity's bounding entities")?;
+                let bounding = numbers.size("the number of an entity's bounding entities")?;
                 for _ in 0..bounding {
-                    let _: i64 = words.number("a bounding entity")?;
+                    numbers.int("a bounding entity")?;
                 }
             }
             groups.insert((dimension, tag), own);
@@ -43,38 +42,34 @@ pub fn entities(words: &mut Words<'_>) -> Result<EntityGroups> {
 }
 
 /// Reads the inside of `$Nodes`.
-pub fn nodes(words: &mut Words<'_>, builder: &mut Builder) -> Result<()> {
-    let blocks: usize = words.number("the number of node blocks")?;
+pub fn nodes(numbers: &mut Numbers<'_, '_>, builder: &mut Builder) -> Result<()> {
+    let blocks = numbers.size("the number of node blocks")?;
     for what in [
         "the number of nodes",
         "the least node tag",
         "the greatest node tag",
     ] {
-        let _: u64 = words.number(what)?;
+        numbers.size(what)?;
     }
     let mut tags: Vec<u64> = Vec::new();
     for _ in 0..blocks {
-        let dimension: usize = words.number("the dimension of a node block's entity")?;
-        let _entity: i64 = words.number("the tag of a node block's entity")?;
-        let parametric: u8 = words.number("0 or 1 (parametric coordinates)")?;
-        let number: usize = words.number("the number of nodes in a block")?;
+        let dimension: usize = numbers.count("the dimension of a node block's entity")?;
+        let _entity = numbers.int("the tag of a node block's entity")?;
+        let parametric: u8 = numbers.count("0 or 1 (parametric coordinates)")?;
+        let number = numbers.size("the number of nodes in a block")?;
         tags.clear();
         for _ in 0..number {
-            tags.push(words.number("the tag of a node")?);
+            tags.push(numbers.size("the tag of a node")?);
         }
         // Nodes on a curve or surface may carry their parameters there.
         let parameters = if parametric == 0 { 0 } else { dimension.min(3) };
         for tag in &tags {
-            let position = [
-                words.coordinate("the x coordinate of a node")?,
-                words.coordinate("the y coordinate of a node")?,
-                words.coordinate("the z coordinate of a node")?,
-            ];
-            let line = words.word_line();
+            let position = numbers.position()?;
+            let place = numbers.place();
             for _ in 0..parameters {
-                let _: f64 = words.number("a parametric coordinate of a node")?;
+                numbers.real("a parametric coordinate of a node")?;
             }
-            builder.node(*tag, position, line)?;
+            builder.node(*tag, position, place)?;
         }
     }
     Ok(())
@@ -82,38 +77,36 @@ pub fn nodes(words: &mut Words<'_>, builder: &mut Builder) -> Result<()> {
 
 /// Reads the inside of `$Elements`.
 pub fn elements(
-    words: &mut Words<'_>,
+    numbers: &mut Numbers<'_, '_>,
     builder: &mut Builder,
     entities: &EntityGroups,
 ) -> Result<()> {
-    let blocks: usize = words.number("the number of element blocks")?;
+    let blocks = numbers.size("the number of element blocks")?;
     for what in [
         "the number of elements",
         "the least element tag",
         "the greatest element tag",
     ] {
-        let _: u64 = words.number(what)?;
+        numbers.size(what)?;
     }
-    let mut nodes = Vec::new();
     for _ in 0..blocks {
-        let dimension: u8 = words.number("the dimension of an element block's entity")?;
-        let entity: i64 = words.number("the tag of an element block's entity")?;
-        let kind = ElementType::from_number(
-            words.number("the type of a block's elements")?,
-            words.word_line(),
-        )?;
-        let number: usize = words.number("the number of elements in a block")?;
+        let dimension = numbers.int("the dimension of an element block's entity")?;
+        let entity = numbers.int("the tag of an element block's entity")?;
+        let kind = numbers.count("the type of a block's elements")?;
+        let kind = ElementType::from_number(kind, numbers.place())?;
+        let number = numbers.size("the number of elements in a block")?;
         let groups = entities
             .get(&(dimension, entity))
             .map_or(&[][..], Vec::as_slice);
         for _ in 0..number {
-            let _tag: u64 = words.number("the tag of an element")?;
-            let line = words.word_line();
-            nodes.clear();
-            for _ in 0..kind.node_count() {
-                nodes.push(words.number("the tag of an element's node")?);
+            numbers.size("the tag of an element")?;
+            let place = numbers.place();
+            let mut nodes = [0; ElementType::MOST_NODES];
+            let nodes = &mut nodes[..kind.node_count()];
+            for node in nodes.iter_mut() {
+                *node = numbers.size("the tag of an element's node")?;
             }
-            builder.element(kind, groups, &nodes, line)?;
+            builder.element(kind, groups, nodes, place)?;
         }
     }
     Ok(())

@@ -3,6 +3,7 @@
 use super::blocks::{Base64, Layout, Raw};
 use super::line_number;
 use crate::error::{Error, Result};
+use crate::read::vtk::data::Values;
 use crate::read::words::shown;
 use roxmltree::{Document, Node};
 use std::fmt::Display;
@@ -175,6 +176,14 @@ impl<'a, 'input> File<'a, 'input> {
                 ),
             )
         })
+    }
+
+    /// The array's numbers, integers or not.
+    pub fn values(&self, node: Node<'_, '_>) -> Result<Values> {
+        match self.number_type(node)? {
+            NumberType::Float(_) => self.floats(node).map(Values::Reals),
+            _ => self.integers(node).map(Values::Integers),
+        }
     }
 
     /// The array's numbers as integers.

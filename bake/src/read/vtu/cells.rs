@@ -1,56 +1,11 @@
 //! The cells of a VTK XML unstructured grid.
 
 use super::arrays::File;
-use super::octahedron;
-use crate::error::{Error, Result, count};
-use crate::mesh::{SolidMesh, Vertex};
+use crate::error::{Error, Result};
+use crate::mesh::SolidMesh;
+use crate::read::vtk::cell::{self, Cell, POLYHEDRON};
+use crate::read::vtk::data::{self, DataArray};
 use roxmltree::Node;
-use std::collections::BTreeMap;
-
-/// The cell types of VTK that have a say here.
-const TETRAHEDRON: i64 = 10;
-const POLYHEDRON: i64 = 42;
-
-/// Name of a cell type without volume, which is counted and left out.
-fn ignored_name(kind: i64) -> Option<(&'static str, &'static str)> {
-    Some(match kind {
-        0 => ("empty cell", "empty cells"),
-        1 | 2 => ("vertex cell", "vertex cells"),
-        3 | 4 => ("line", "lines"),
-        5 | 6 => ("triangle", "triangles"),
-        7..=9 => ("polygon", "polygons"),
-        _ => return None,
-    })
-}
-
-/// Why a cell type with volume is refused, and what to do.
-fn refusal(kind: i64) -> (String, &'static str) {
-    let name = match kind {
-        11 => "a voxel",
-        12 => "a hexahedron",
-        13 => "a wedge (prism)",
-        14 => "a pyramid",
-        15 | 16 => "a prism with more than four sides",
-        21..=37 | 60..=81 => {
-            return (
-                format!(
-                    "has cell type {kind}, which is of second or higher order; a cage has cells with straight edges"
-                ),
-                "write the mesh at first order",
-            );
-        }
-        _ => {
-            return (
-                format!("has cell type {kind}, which is not known"),
-                "a cage consists of tetrahedra (type 10) and octahedra (polyhedra, type 42)",
-            );
-        }
-    };
-    (
-        format!("is {name}; a cage of the scheme tet-oct consists of tetrahedra and octahedra"),
-        "mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
-    )
-}
 
 /// Where the faces of polyhedra are found, in either layout, as a list of vertex lists.
 enum Polyhedra {
@@ -184,96 +139,69 @@ impl<'a, 'input> Lists<'a, 'input> {
         })
     }
 
-    /// The corners as the cell lists them.
-    fn corners(&self, cell: usize, vertices: usize) -> Result<Vec<Vertex>> {
+    /// The points of a cell, and its faces if it is a polyhedron.
+    fn cell(&self, cell: usize) -> Result<Cell> {
         let listed = range(&self.offsets, cell).and_then(|range| self.connectivity.get(range));
-        let listed = listed.ok_or_else(|| Error::new("has offsets beyond the connectivity"))?;
-        listed
-            .iter()
-            .map(|vertex| vertex_index(*vertex, vertices))
-            .collect()
-    }
-
-    /// Reads one cell into `mesh`; false if it is of a type without volume.
-    fn read_cell(&self, cell: usize, mesh: &mut SolidMesh) -> Result<bool> {
-        let vertices = mesh.points.len();
-        match (self.types[cell], &self.polyhedra) {
-            (TETRAHEDRON, _) => {
-                let corners = self.corners(cell, vertices)?;
-                let corners = <[Vertex; 4]>::try_from(corners.as_slice()).map_err(|_| {
-                    Error::new(format!("is a tetrahedron with {} corners", corners.len()))
-                })?;
-                mesh.cells.tetrahedra.push(corners);
-            }
-            (POLYHEDRON, Some(polyhedra)) => {
-                let faces = polyhedra
-                    .faces_of(cell)
-                    .ok_or_else(|| Error::new("has an incomplete list of faces"))?;
-                let corners = octahedron::recognise(&self.corners(cell, vertices)?, &faces)?;
-                mesh.cells.octahedra.push(corners);
-            }
-            (kind, _) if ignored_name(kind).is_some() => return Ok(false),
-            (kind, _) => {
-                let (message, advice) = refusal(kind);
-                return Err(Error::new(message).advise(advice));
-            }
-        }
-        Ok(true)
+        let points = listed
+            .ok_or_else(|| Error::new("has offsets beyond the connectivity"))?
+            .to_vec();
+        let faces = match (self.types[cell], &self.polyhedra) {
+            (POLYHEDRON, Some(polyhedra)) => polyhedra
+                .faces_of(cell)
+                .ok_or_else(|| Error::new("has an incomplete list of faces"))?,
+            _ => Vec::new(),
+        };
+        Ok(Cell {
+            kind: self.types[cell],
+            points,
+            faces,
+        })
     }
 }
 
-/// Reads the cells of `piece` into `mesh`, whose points are there already.
+/// Reads the cells of `piece` into `mesh`, whose points are there already, and what data the file
+/// has on points and cells.
 pub fn read<'a, 'input>(
     file: &File<'a, 'input>,
     piece: Node<'a, 'input>,
     mesh: &mut SolidMesh,
 ) -> Result<()> {
     let lists = Lists::read(file, piece)?;
-    let mut ignored: BTreeMap<i64, usize> = BTreeMap::new();
-    for (cell, kind) in lists.types.iter().enumerate() {
-        let is_kept = lists.read_cell(cell, mesh).map_err(|error| {
-            let message = format!("cell {cell} (counted from 0) {}", error.message());
-            let located = file.error(lists.node, message);
-            match error.advice() {
-                Some(advice) => located.advise(advice),
-                None => located,
-            }
-        })?;
-        if !is_kept {
-            *ignored.entry(*kind).or_default() += 1;
-        }
+    let cells = (0..lists.types.len()).map(|index| lists.cell(index));
+    let kept = cell::add_all(cells, mesh).map_err(|error| located(file, lists.node, error))?;
+    for (element, add) in [
+        ("CellData", data::add_labels as data::Add),
+        ("PointData", data::add_channels as data::Add),
+    ] {
+        let Some(node) = piece.children().find(|node| node.has_tag_name(element)) else {
+            continue;
+        };
+        let arrays = node
+            .children()
+            .filter(|node| node.has_tag_name("DataArray"));
+        let arrays = arrays.filter_map(|array| data_array(file, array).transpose());
+        let arrays: Vec<DataArray> = arrays.collect::<Result<_>>()?;
+        add(&arrays, &kept, mesh).map_err(|error| located(file, node, error))?;
     }
-    if mesh.cells.is_empty() {
-        return Err(file.error(lists.node, "the grid has no tetrahedra and no octahedra"));
-    }
-    note_ignored(&ignored, &mut mesh.notes);
     Ok(())
 }
 
-fn note_ignored(ignored: &BTreeMap<i64, usize>, notes: &mut Vec<String>) {
-    let named: Vec<String> = ignored
-        .iter()
-        .filter_map(|(kind, number)| {
-            ignored_name(*kind).map(|(singular, plural)| count(*number, singular, plural))
-        })
-        .collect();
-    if !named.is_empty() {
-        notes.push(format!(
-            "left out, for want of volume: {}",
-            named.join(", ")
-        ));
-    }
+fn located(file: &File<'_, '_>, node: Node<'_, '_>, error: Error) -> Error {
+    error.at(file.error(node, "").place())
 }
 
-/// A vertex index as the mesh holds it, or an error.
-pub fn vertex_index(value: i64, vertices: usize) -> Result<Vertex> {
-    let index = usize::try_from(value)
-        .ok()
-        .filter(|index| *index < vertices);
-    match index.and_then(|index| Vertex::try_from(index).ok()) {
-        Some(index) => Ok(index),
-        None => Err(Error::new(format!(
-            "names vertex {value}, but there are {vertices} vertices"
-        ))),
+/// One array of data; `None` for arrays of text.
+fn data_array(file: &File<'_, '_>, node: Node<'_, '_>) -> Result<Option<DataArray>> {
+    if node.attribute("type") == Some("String") {
+        return Ok(None);
     }
+    let components = match node.attribute("NumberOfComponents") {
+        None => 1,
+        Some(_) => file.count(node, "NumberOfComponents")?,
+    };
+    Ok(Some(DataArray {
+        name: node.attribute("Name").unwrap_or("").to_owned(),
+        components,
+        values: file.values(node)?,
+    }))
 }

@@ -5,13 +5,12 @@
 //! `polyhedron_to_faces`, `polyhedron_offsets`. Arrays may be ASCII, inline base64 or appended
 //! (raw or base64), plain or compressed with zlib, with either header type and byte order.
 //! Vertices, lines, triangles and quadrangles are counted and left out; other volume cells and
-//! cells of second order are errors. A file has one piece. The format holds no features; give
-//! them with a feature file.
+//! cells of second order are errors. A file has one piece. Labels and channels are chosen as
+//! [`super::vtk::data`] says. The format holds no features; give them with a feature file.
 
 mod arrays;
 mod blocks;
 mod cells;
-mod octahedron;
 
 use crate::error::{Error, Result};
 use crate::mesh::{Point, SolidMesh, Vertex};

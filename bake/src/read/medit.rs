@@ -1,0 +1,264 @@
+//! Medit meshes (`.mesh`), ASCII.
+//!
+//! Tetrahedra make the cage, their references are its labels. Edges listed under `Ridges` become
+//! crease edges, vertices under `Corners` corners. Other edges, triangles and quadrilaterals are
+//! counted and left out; other volume elements are errors. Sections that say nothing about the mesh
+//! itself (normals, tangents, what a remesher must keep) are skipped. MFEM's meshes, which have the
+//! same extension, are recognised and refused.
+
+use super::words::{Words, shown};
+use crate::error::{Error, Result, count};
+use crate::mesh::{SolidMesh, Vertex};
+
+/// What the sections say, until all of them are read.
+#[derive(Default)]
+struct Sections {
+    mesh: SolidMesh,
+    edges: Vec<[Vertex; 2]>,
+    /// Edges that are creases, with the line of each.
+    ridges: Vec<(usize, usize)>,
+    ignored: Vec<(usize, &'static str, &'static str)>,
+}
+
+/// Reads a mesh from the bytes of a `.mesh` file.
+pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
+    let mut words = Words::new(bytes);
+    header(&mut words)?;
+    let mut sections = Sections::default();
+    loop {
+        let Some(keyword) = words.next_word()? else {
+            return Err(words
+                .error("expected a section or End, found the end of the file")
+                .advise("the file seems to be cut off; write it again"));
+        };
+        match keyword {
+            "End" | "END" => break,
+            comment if comment.starts_with('#') => {
+                words.rest_of_line()?;
+            }
+            keyword => section(&mut words, keyword, &mut sections)?,
+        }
+    }
+    finish(sections)
+}
+
+fn header(words: &mut Words<'_>) -> Result<()> {
+    let first = words.word("MeshVersionFormatted")?;
+    if first == "MFEM" {
+        return Err(words
+            .error("this is an MFEM mesh, which is another format with the same extension")
+            .advise("convert it: MFEM's tool `convert-dc` writes VTK"));
+    }
+    if first != "MeshVersionFormatted" {
+        return Err(words
+            .error(format!(
+                "expected MeshVersionFormatted, found \"{}\"",
+                shown(first)
+            ))
+            .advise("this is no Medit mesh"));
+    }
+    let version: u32 = words.number("the version of the format, 1 to 4")?;
+    if !(1..=4).contains(&version) {
+        return Err(words.error(format!(
+            "expected the version of the format, 1 to 4, found \"{version}\""
+        )));
+    }
+    let keyword = words.word("Dimension")?;
+    let dimension: u32 = words.number("the dimension, 3")?;
+    if keyword != "Dimension" || dimension != 3 {
+        return Err(words
+            .error(format!(
+                "expected Dimension 3, found \"{} {dimension}\"",
+                shown(keyword)
+            ))
+            .advise("a cage is a mesh of tetrahedra in space"));
+    }
+    Ok(())
+}
+
+fn section(words: &mut Words<'_>, keyword: &str, sections: &mut Sections) -> Result<()> {
+    match keyword {
+        "Vertices" => vertices(words, &mut sections.mesh),
+        "Tetrahedra" => tetrahedra(words, &mut sections.mesh),
+        "Edges" => {
+            for _ in 0..words.number::<u64>("the number of edges")? {
+                let edge = corners(words, sections.mesh.points.len(), "a vertex of an edge")?;
+                words.number::<i64>("the reference of an edge")?;
+                sections.edges.push(edge);
+            }
+            Ok(())
+        }
+        "Ridges" => {
+            for _ in 0..words.number::<u64>("the number of ridges")? {
+                let edge = words.number("the edge of a ridge")?;
+                sections.ridges.push((edge, words.word_line()));
+            }
+            Ok(())
+        }
+        "Corners" => {
+            for _ in 0..words.number::<u64>("the number of corners")? {
+                let [vertex] = corners(words, sections.mesh.points.len(), "the vertex of a corner")?;
+                sections.mesh.features.corners.push(vertex);
+            }
+            Ok(())
+        }
+        "Triangles" => left_out(words, 4, ("triangle", "triangles"), sections),
+        "Quadrilaterals" => left_out(words, 5, ("quadrilateral", "quadrilaterals"), sections),
+        "Hexahedra" | "Hexaedra" => foreign(words, ("hexahedron", "hexahedra")),
+        "Prisms" | "Pentahedra" | "Pentaedra" => foreign(words, ("prism", "prisms")),
+        "Pyramids" => foreign(words, ("pyramid", "pyramids")),
+        _ if ["P2", "P3", "P4", "Q2", "Q3", "Q4"]
+            .iter()
+            .any(|order| keyword.contains(order)) =>
+        {
+            Err(words
+                .error(format!(
+                    "the section {} is of second or higher order; a cage has cells with straight edges",
+                    shown(keyword)
+                ))
+                .advise("write the mesh at first order"))
+        }
+        _ if keyword.starts_with(|first: char| first.is_ascii_alphabetic()) => {
+            skip(words, keyword)
+        }
+        _ => Err(words
+            .error(format!("expected a section, found \"{}\"", shown(keyword)))
+            .advise("the number at the start of the section before may be wrong")),
+    }
+}
+
+fn vertices(words: &mut Words<'_>, mesh: &mut SolidMesh) -> Result<()> {
+    let number: Vertex = words.number("the number of vertices")?;
+    if !mesh.points.is_empty() {
+        return Err(words.error("there is a second section Vertices"));
+    }
+    for _ in 0..number {
+        let point = [
+            words.coordinate("the x coordinate of a vertex")?,
+            words.coordinate("the y coordinate of a vertex")?,
+            words.coordinate("the z coordinate of a vertex")?,
+        ];
+        // Some programs write references as real numbers.
+        words.number::<f64>("the reference of a vertex")?;
+        mesh.points.push(point);
+    }
+    Ok(())
+}
+
+fn tetrahedra(words: &mut Words<'_>, mesh: &mut SolidMesh) -> Result<()> {
+    for _ in 0..words.number::<u64>("the number of tetrahedra")? {
+        let cell = corners(words, mesh.points.len(), "a vertex of a tetrahedron")?;
+        mesh.cells.tetrahedra.push(cell);
+        let label = words.number("the reference of a tetrahedron")?;
+        mesh.labels.tetrahedra.push(label);
+    }
+    Ok(())
+}
+
+/// Vertices, which Medit counts from 1.
+fn corners<const N: usize>(
+    words: &mut Words<'_>,
+    vertices: usize,
+    expected: &str,
+) -> Result<[Vertex; N]> {
+    let mut corners = [0; N];
+    for corner in &mut corners {
+        let listed: i64 = words.number(expected)?;
+        let index = listed
+            .checked_sub(1)
+            .and_then(|index| Vertex::try_from(index).ok());
+        let in_range = index.filter(|index| usize::try_from(*index).is_ok_and(|i| i < vertices));
+        *corner = in_range.ok_or_else(|| {
+            words
+                .error(format!(
+                    "expected {expected}, 1 to {vertices}, found \"{listed}\""
+                ))
+                .advise("the section Vertices must come first and hold all vertices")
+        })?;
+    }
+    Ok(corners)
+}
+
+fn left_out(
+    words: &mut Words<'_>,
+    numbers: usize,
+    (singular, plural): (&'static str, &'static str),
+    sections: &mut Sections,
+) -> Result<()> {
+    let number: usize = words.number(&format!("the number of {plural}"))?;
+    for _ in 0..number {
+        for _ in 0..numbers {
+            words.number::<i64>(&format!("a vertex or the reference of a {singular}"))?;
+        }
+    }
+    sections.ignored.push((number, singular, plural));
+    Ok(())
+}
+
+fn foreign(words: &mut Words<'_>, (singular, plural): (&str, &str)) -> Result<()> {
+    let number: usize = words.number(&format!("the number of {plural}"))?;
+    if number == 0 {
+        return Ok(());
+    }
+    Err(words
+        .error(format!(
+            "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra",
+            count(number, singular, plural)
+        ))
+        .advise("mesh the volume with tetrahedra alone"))
+}
+
+/// Moves past a section that says nothing about the mesh itself: numbers up to the next word.
+fn skip(words: &mut Words<'_>, keyword: &str) -> Result<()> {
+    let place = words.place();
+    while !words.is_keyword_next() {
+        if words.next_word()?.is_none() {
+            return Err(
+                Error::new(format!("the file ends in the section {}", shown(keyword)))
+                    .at(place)
+                    .advise("the file seems to be cut off; write it again"),
+            );
+        }
+    }
+    Ok(())
+}
+
+fn finish(sections: Sections) -> Result<SolidMesh> {
+    let mut mesh = sections.mesh;
+    for (listed, line) in &sections.ridges {
+        let edge = listed
+            .checked_sub(1)
+            .and_then(|index| sections.edges.get(index));
+        let edge = edge.ok_or_else(|| {
+            Error::new(format!(
+                "expected the edge of a ridge, 1 to {}, found \"{listed}\"",
+                sections.edges.len()
+            ))
+            .at_line(*line)
+        })?;
+        mesh.features.creases.push(*edge);
+    }
+    if mesh.cells.is_empty() {
+        return Err(Error::new("the mesh has no tetrahedra")
+            .advise("a cage is a mesh of the volume, not of its surface"));
+    }
+    mesh.features.normalise();
+    mesh.labels.drop_if_zero();
+    let mut ignored: Vec<String> = sections
+        .ignored
+        .into_iter()
+        .filter(|(number, ..)| *number > 0)
+        .map(|(number, singular, plural)| count(number, singular, plural))
+        .collect();
+    let smooth = sections.edges.len() - mesh.features.creases.len().min(sections.edges.len());
+    if smooth > 0 {
+        ignored.push(format!(
+            "{} that no ridge names",
+            count(smooth, "edge", "edges")
+        ));
+    }
+    if !ignored.is_empty() {
+        mesh.notes.push(format!("left out: {}", ignored.join(", ")));
+    }
+    Ok(mesh)
+}
