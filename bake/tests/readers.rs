@@ -3,7 +3,7 @@
 mod common;
 
 use common::{TWO_TETRAHEDRA_2, TWO_TETRAHEDRA_4, data};
-use octruss_bake::mesh::{Cells, Features, SolidMesh};
+use octruss_bake::mesh::{Cells, Features, Labels, SolidMesh};
 use octruss_bake::read::{features, gmsh, motion, obj, vtu};
 use octruss_bake::write;
 
@@ -51,9 +51,11 @@ fn gmsh_2_and_4_give_the_same_mesh() {
             [0.5, 0.5, -2.0],
         ],
         cells: Cells { tetrahedra: vec![[0, 1, 2, 3], [0, 2, 1, 4]], octahedra: vec![] },
-        features: Features { creases: vec![[0, 1]], corners: vec![3] },
+        features: Features { creases: vec![[0, 1]], corners: vec![3], faces: vec![] },
+        labels: Labels { tetrahedra: vec![9, 9], octahedra: vec![] },
+        channels: vec![],
         notes: vec![
-            "left out: 1 line, 1 triangle (in no physical group whose name starts with \"crease\" for curves or \"corner\" for points)".to_owned(),
+            "left out: 1 line, 1 triangle (in no physical group whose name starts with \"crease\" for curves and surfaces or \"corner\" for points)".to_owned(),
         ],
     };
     assert_eq!(gmsh::read(TWO_TETRAHEDRA_2.as_bytes()).unwrap(), expected);
@@ -82,7 +84,7 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
             TWO_TETRAHEDRA_2,
             "2.2 0 8",
             "2.2 1 8",
-            "line 2: the mesh is binary; ASCII is read\n  help: save it as ASCII: Mesh.Binary = 0, `gmsh MESH -save -format msh41 -o NEW.msh`",
+            "byte 20: expected the number 1 in four bytes, which shows the byte order, found [36, 69, 110, 100]\n  help: the file is damaged, or its line ends were changed; write it again",
         ),
         (
             TWO_TETRAHEDRA_2,
@@ -154,7 +156,7 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
             TWO_TETRAHEDRA_2,
             "0 7 \"Corner top\"",
             "2 7 \"crease skin\"",
-            "the scheme tet-oct has crease edges, not crease faces",
+            "line 26: a physical surface whose name starts with \"crease\" holds this quadrangle; the faces of a cage's cells are triangles\n  help: mesh the surface with triangles, or rename the group",
         ),
         (
             TWO_TETRAHEDRA_2,
@@ -194,7 +196,7 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
         ),
     ] {
         let text = if to.contains("crease skin") {
-            text.replace("4 2 2 0 1 10", "4 2 2 7 1 10")
+            text.replace("4 2 2 0 1 10 20 30", "4 3 2 7 1 10 20 30 40")
         } else {
             text.to_owned()
         };
@@ -399,13 +401,14 @@ fn vtu_errors_name_the_line_and_what_to_do() {
 
 #[test]
 fn features_are_read_line_by_line() {
-    let text = "# rim\ncrease 3 1\n\n  corner 2 # tip\ncrease 1 3\ncorner 0\n";
+    let text = "# rim\ncrease 3 1\n\n  corner 2 # tip\ncrease 1 3\ncorner 0\ncrease-face 3 1 2\n";
     let features = features::read(text.as_bytes(), 4).unwrap();
     assert_eq!(
         features,
         Features {
             creases: vec![[1, 3]],
-            corners: vec![0, 2]
+            corners: vec![0, 2],
+            faces: vec![[1, 2, 3]]
         }
     );
     for (text, message) in [
@@ -420,11 +423,15 @@ fn features_are_read_line_by_line() {
         ("corner x", "line 1: expected a vertex, found \"x\""),
         (
             "corner 1 2",
-            "line 1: expected `crease A B` or `corner A`, found \"corner\" with 2 words after it",
+            "line 1: expected `crease A B`, `crease-face A B C` or `corner A`, found \"corner\" with 2 words after it",
         ),
         (
-            "crease-face 0 1 2",
-            "line 1: crease-face makes a face of the mesh a crease; `info`, `refine`, `bake` and `deform` of tetrahedral cages read crease edges and corners only\n  help: give the edges that shall stay sharp as `crease A B`",
+            "crease-face 0 1 0",
+            "line 1: the crease face names a vertex twice",
+        ),
+        (
+            "crease-face 0 1 2 3",
+            "line 1: the faces of tetrahedra and octahedra have three vertices, this crease face has four\n  help: give the triangles: crease-face A B C",
         ),
     ] {
         assert_eq!(
