@@ -62,7 +62,10 @@ fn files_of_gmsh_in_every_format() {
             "gmsh-binary.vtk",
             "left out, for want of volume: 1 vertex cell, 1 line, 1 triangle",
         ),
-        ("gmsh.mesh", "left out: 1 triangle, 1 edge that no ridge names"),
+        (
+            "gmsh.mesh",
+            "left out: 1 triangle, 1 edge that no ridge names",
+        ),
     ] {
         let mesh = read::solid(&data(name)).unwrap();
         let expected = SolidMesh {
@@ -225,20 +228,75 @@ fn broken<T: std::fmt::Debug>(
 #[test]
 fn medit_errors() {
     for (from, to, message) in [
-        ("MeshVersionFormatted 2", "MFEM mesh v1.0", "line 1: this is an MFEM mesh, which is another format with the same extension\n  help: convert it: MFEM's tool `convert-dc` writes VTK"),
-        ("MeshVersionFormatted", "$MeshFormat", "line 1: expected MeshVersionFormatted, found \"$MeshFormat\"\n  help: this is no Medit mesh"),
-        ("MeshVersionFormatted 2\n# by hand\nDimension 3", "MeshVersionFormatted 2\nDimension 2", "line 2: expected Dimension 3, found \"Dimension 2\"\n  help: a cage is a mesh of tetrahedra in space"),
-        ("Vertices\n5", "Vertices\n6", "line 11: expected the x coordinate of a vertex, found \"Edges\""),
-        ("Vertices\n5", "Vertices\n4", "line 10: expected a section, found \"0.5\"\n  help: the number at the start of the section before may be wrong"),
-        ("0.5 0.25 2 0", "0.5 inf 2 0", "line 9: expected the y coordinate of a vertex, found inf, which is no finite number"),
-        ("1 3 2 5 2", "1 3 2 6 2", "line 29: expected a vertex of a tetrahedron, 1 to 5, found \"6\"\n  help: the section Vertices must come first and hold all vertices"),
-        ("Ridges\n1\n1", "Ridges\n1\n3", "line 17: expected the edge of a ridge, 1 to 2, found \"3\""),
-        ("Tetrahedra\n2", "TetrahedraP2\n2", "line 26: the section TetrahedraP2 is of second or higher order; a cage has cells with straight edges\n  help: write the mesh at first order"),
-        ("Tetrahedra\n2", "Hexahedra\n2", "line 27: the mesh has 2 hexahedra; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra alone"),
-        ("End\n", "", "line 30: expected a section or End, found the end of the file\n  help: the file seems to be cut off; write it again"),
-        ("Tetrahedra\n2\n1 2 3 4 1\n1 3 2 5 2\n", "", "the mesh has no tetrahedra\n  help: a cage is a mesh of the volume, not of its surface"),
+        (
+            "MeshVersionFormatted 2",
+            "MFEM mesh v1.0",
+            "line 1: this is an MFEM mesh, which is another format with the same extension\n  help: convert it: MFEM's tool `convert-dc` writes VTK",
+        ),
+        (
+            "MeshVersionFormatted",
+            "$MeshFormat",
+            "line 1: expected MeshVersionFormatted, found \"$MeshFormat\"\n  help: this is no Medit mesh",
+        ),
+        (
+            "MeshVersionFormatted 2\n# by hand\nDimension 3",
+            "MeshVersionFormatted 2\nDimension 2",
+            "line 2: expected Dimension 3, found \"Dimension 2\"\n  help: a cage is a mesh of tetrahedra in space",
+        ),
+        (
+            "Vertices\n5",
+            "Vertices\n6",
+            "line 11: expected the x coordinate of a vertex, found \"Edges\"",
+        ),
+        (
+            "Vertices\n5",
+            "Vertices\n4",
+            "line 10: expected a section, found \"0.5\"\n  help: the number at the start of the section before may be wrong",
+        ),
+        (
+            "0.5 0.25 2 0",
+            "0.5 inf 2 0",
+            "line 9: expected the y coordinate of a vertex, found inf, which is no finite number",
+        ),
+        (
+            "1 3 2 5 2",
+            "1 3 2 6 2",
+            "line 29: expected a vertex of a tetrahedron, 1 to 5, found \"6\"\n  help: the section Vertices must come first and hold all vertices",
+        ),
+        (
+            "Ridges\n1\n1",
+            "Ridges\n1\n3",
+            "line 17: expected the edge of a ridge, 1 to 2, found \"3\"",
+        ),
+        (
+            "Tetrahedra\n2",
+            "TetrahedraP2\n2",
+            "line 26: the section TetrahedraP2 is of second or higher order; a cage has cells with straight edges\n  help: write the mesh at first order",
+        ),
+        (
+            "Tetrahedra\n2",
+            "Hexahedra\n2",
+            "line 27: the mesh has 2 hexahedra; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra alone",
+        ),
+        (
+            "End\n",
+            "",
+            "line 30: expected a section or End, found the end of the file\n  help: the file seems to be cut off; write it again",
+        ),
+        (
+            "Tetrahedra\n2\n1 2 3 4 1\n1 3 2 5 2\n",
+            "",
+            "the mesh has no tetrahedra\n  help: a cage is a mesh of the volume, not of its surface",
+        ),
     ] {
-        let text = if from.contains("by hand") { MEDIT.to_owned() } else { MEDIT.replace("MeshVersionFormatted 2\n# by hand\nDimension 3", "MeshVersionFormatted 2\n\nDimension 3") };
+        let text = if from.contains("by hand") {
+            MEDIT.to_owned()
+        } else {
+            MEDIT.replace(
+                "MeshVersionFormatted 2\n# by hand\nDimension 3",
+                "MeshVersionFormatted 2\n\nDimension 3",
+            )
+        };
         assert_eq!(broken(medit::read, &text, from, to), message);
     }
 }
@@ -246,23 +304,73 @@ fn medit_errors() {
 #[test]
 fn tetgen_errors_name_the_file() {
     for (from, to, message) in [
-        ("5 3 2 1", "5 2 2 1", "cage.node, line 2: expected the dimension, 3, found \"2\"\n  help: a cage is a mesh of tetrahedra in space"),
-        ("5 3 2 1", "6 3 2 1", "cage.node: expected vertex 5 of 6, found the end of the file\n  help: the file seems to be cut off; write it again"),
-        ("3 0 2 0", "4 0 2 0", "cage.node, line 5: expected the index of a vertex, found \"4\"\n  help: vertices are counted from 0 or 1 without gaps"),
-        ("2 2 0 0 30", "2 2 0 nan 30", "cage.node, line 4: expected the z coordinate of a vertex, found NaN, which is no finite number"),
-        ("25 -7 1", "25", "cage.node, line 8: expected an attribute of a vertex, found the end of the line"),
+        (
+            "5 3 2 1",
+            "5 2 2 1",
+            "cage.node, line 2: expected the dimension, 3, found \"2\"\n  help: a cage is a mesh of tetrahedra in space",
+        ),
+        (
+            "5 3 2 1",
+            "6 3 2 1",
+            "cage.node: expected vertex 5 of 6, found the end of the file\n  help: the file seems to be cut off; write it again",
+        ),
+        (
+            "3 0 2 0",
+            "4 0 2 0",
+            "cage.node, line 5: expected the index of a vertex, found \"4\"\n  help: vertices are counted from 0 or 1 without gaps",
+        ),
+        (
+            "2 2 0 0 30",
+            "2 2 0 nan 30",
+            "cage.node, line 4: expected the z coordinate of a vertex, found NaN, which is no finite number",
+        ),
+        (
+            "25 -7 1",
+            "25",
+            "cage.node, line 8: expected an attribute of a vertex, found the end of the line",
+        ),
     ] {
-        let error = broken(|node| read_tetgen(std::str::from_utf8(node).unwrap(), ELE), NODE, from, to);
+        let error = broken(
+            |node| read_tetgen(std::str::from_utf8(node).unwrap(), ELE),
+            NODE,
+            from,
+            to,
+        );
         assert_eq!(error, message);
     }
     for (from, to, message) in [
-        ("2 4 1", "2 10 1", "cage.ele, line 1: the tetrahedra have 10 vertices: they are of second order; a cage has cells with straight edges\n  help: run TetGen without -o2"),
-        ("2 4 1", "0 4 1", "cage.ele, line 1: the mesh has no tetrahedra"),
-        ("2 4 1", "3 4 1", "cage.ele: expected tetrahedron 2 of 3, found the end of the file\n  help: the file seems to be cut off; write it again"),
-        ("3 2 5 2", "3 2 6 2", "cage.ele, line 3: names vertex 6, but the .node file has 5 vertices counted from 1"),
-        ("2 1 3 2 5 2", "2 1 3 2 5 2.5", "cage.ele, line 3: expected a whole number of 32 bits as the attribute of a tetrahedron, found 2.5"),
+        (
+            "2 4 1",
+            "2 10 1",
+            "cage.ele, line 1: the tetrahedra have 10 vertices: they are of second order; a cage has cells with straight edges\n  help: run TetGen without -o2",
+        ),
+        (
+            "2 4 1",
+            "0 4 1",
+            "cage.ele, line 1: the mesh has no tetrahedra",
+        ),
+        (
+            "2 4 1",
+            "3 4 1",
+            "cage.ele: expected tetrahedron 2 of 3, found the end of the file\n  help: the file seems to be cut off; write it again",
+        ),
+        (
+            "3 2 5 2",
+            "3 2 6 2",
+            "cage.ele, line 3: names vertex 6, but the .node file has 5 vertices counted from 1",
+        ),
+        (
+            "2 1 3 2 5 2",
+            "2 1 3 2 5 2.5",
+            "cage.ele, line 3: expected a whole number of 32 bits as the attribute of a tetrahedron, found 2.5",
+        ),
     ] {
-        let error = broken(|ele| read_tetgen(NODE, std::str::from_utf8(ele).unwrap()), ELE, from, to);
+        let error = broken(
+            |ele| read_tetgen(NODE, std::str::from_utf8(ele).unwrap()),
+            ELE,
+            from,
+            to,
+        );
         assert_eq!(error, message);
     }
 }
@@ -273,21 +381,77 @@ fn vtk_errors() {
     write::vtk::write(&mixed(), &mut bytes).unwrap();
     let text = String::from_utf8(bytes).unwrap();
     for (from, to, message) in [
-        ("# vtk DataFile Version 3.0", "<?xml version=\"1.0\"?>", "line 1: expected \"# vtk DataFile Version\" and a number, found \"<?xml version=\\\"1.0\\\"?>\"\n  help: this is no legacy VTK file; files of VTK's XML formats are named .vtu"),
-        ("ASCII", "TEXT", "line 3: expected ASCII or BINARY, found \"TEXT\""),
-        ("UNSTRUCTURED_GRID", "POLYDATA", "line 4: expected DATASET UNSTRUCTURED_GRID, found \"DATASET POLYDATA\"\n  help: save the mesh as an unstructured grid"),
-        ("double", "real", "line 5: expected a type of numbers, such as double, found \"real\""),
-        ("POINTS 7", "POINTS 8", "line 13: expected a coordinate of a point, found \"CELLS\""),
-        ("2 2 2\n", "2 2 nan\n", "line 12: point 6 (counted from 0) has a coordinate that is no finite number"),
-        ("CELLS 3 73", "CELLS 4 73", "line 16: cell 3 (counted from 0) has entries beyond the 73 integers of CELLS\n  help: the counts behind CELLS may be wrong"),
-        ("CELLS 3 73", "CELLS 2 73", "line 16: 34 of the 73 integers of CELLS are left over\n  help: the counts behind CELLS may be wrong"),
-        ("CELL_TYPES 3", "CELL_TYPES 2", "line 17: expected a type for each of 3 cells, found 2"),
-        ("10\n42", "12\n42", "line 17: cell 0 (counted from 0) is a hexahedron; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")"),
-        ("4 3 4 5 6", "4 3 4 5 9", "line 17: cell 0 (counted from 0) names vertex 9, but there are 7 vertices"),
-        ("label int", "label float", "line 25: expected a value of the data, found \"POINT_DATA\""),
-        ("0.1\n-3", "inf\n-3", "the array \"temperature\" has a value at point 1 (counted from 0) that is no finite number\n  help: remove the array, or give every point a value"),
+        (
+            "# vtk DataFile Version 3.0",
+            "<?xml version=\"1.0\"?>",
+            "line 1: expected \"# vtk DataFile Version\" and a number, found \"<?xml version=\\\"1.0\\\"?>\"\n  help: this is no legacy VTK file; files of VTK's XML formats are named .vtu",
+        ),
+        (
+            "ASCII",
+            "TEXT",
+            "line 3: expected ASCII or BINARY, found \"TEXT\"",
+        ),
+        (
+            "UNSTRUCTURED_GRID",
+            "POLYDATA",
+            "line 4: expected DATASET UNSTRUCTURED_GRID, found \"DATASET POLYDATA\"\n  help: save the mesh as an unstructured grid",
+        ),
+        (
+            "double",
+            "real",
+            "line 5: expected a type of numbers, such as double, found \"real\"",
+        ),
+        (
+            "POINTS 7",
+            "POINTS 8",
+            "line 13: expected a coordinate of a point, found \"CELLS\"",
+        ),
+        (
+            "2 2 2\n",
+            "2 2 nan\n",
+            "line 12: point 6 (counted from 0) has a coordinate that is no finite number",
+        ),
+        (
+            "CELLS 3 73",
+            "CELLS 4 73",
+            "line 16: cell 3 (counted from 0) has entries beyond the 73 integers of CELLS\n  help: the counts behind CELLS may be wrong",
+        ),
+        (
+            "CELLS 3 73",
+            "CELLS 2 73",
+            "line 16: 34 of the 73 integers of CELLS are left over\n  help: the counts behind CELLS may be wrong",
+        ),
+        (
+            "CELL_TYPES 3",
+            "CELL_TYPES 2",
+            "line 17: expected a type for each of 3 cells, found 2",
+        ),
+        (
+            "10\n42",
+            "12\n42",
+            "line 17: cell 0 (counted from 0) is a hexahedron; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
+        ),
+        (
+            "4 3 4 5 6",
+            "4 3 4 5 9",
+            "line 17: cell 0 (counted from 0) names vertex 9, but there are 7 vertices",
+        ),
+        (
+            "label int",
+            "label float",
+            "line 25: expected a value of the data, found \"POINT_DATA\"",
+        ),
+        (
+            "0.1\n-3",
+            "inf\n-3",
+            "the array \"temperature\" has a value at point 1 (counted from 0) that is no finite number\n  help: remove the array, or give every point a value",
+        ),
     ] {
-        let from_text = if from == "label int" { text.replace("\n0\nPOINT", "\nPOINT") } else { text.clone() };
+        let from_text = if from == "label int" {
+            text.replace("\n0\nPOINT", "\nPOINT")
+        } else {
+            text.clone()
+        };
         assert_eq!(broken(vtk::read, &from_text, from, to), message);
     }
 }
@@ -320,7 +484,12 @@ fn the_same_bundle_from_every_pair_of_formats() {
         .creases
         .iter()
         .map(|[a, b]| format!("crease {a} {b}\n"))
-        .chain(cage.features.corners.iter().map(|corner| format!("corner {corner}\n")))
+        .chain(
+            cage.features
+                .corners
+                .iter()
+                .map(|corner| format!("corner {corner}\n")),
+        )
         .collect();
     let features = folder.write("features.txt", features);
     let bake = |cage: &str, skin: &str| {
@@ -337,7 +506,14 @@ fn the_same_bundle_from_every_pair_of_formats() {
         folder.read("out.oct")
     };
     let expected = bake("cage.msh", "skin.obj");
-    for cage in ["cage.msh", "cage.vtu", "cage.vtk", "cage.mesh", "cage.ele", "cage.node"] {
+    for cage in [
+        "cage.msh",
+        "cage.vtu",
+        "cage.vtk",
+        "cage.mesh",
+        "cage.ele",
+        "cage.node",
+    ] {
         for skin in ["skin.obj", "skin.ply", "skin.off"] {
             assert!(bake(cage, skin) == expected, "{cage} {skin}");
         }
@@ -345,7 +521,10 @@ fn the_same_bundle_from_every_pair_of_formats() {
 }
 
 fn medit_text(mesh: &SolidMesh) -> String {
-    let mut text = format!("MeshVersionFormatted 2\nDimension 3\nVertices\n{}\n", mesh.points.len());
+    let mut text = format!(
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n{}\n",
+        mesh.points.len()
+    );
     for [x, y, z] in &mesh.points {
         text += &format!("{x} {y} {z} 0\n");
     }
@@ -382,19 +561,30 @@ fn written(model: &read::models::Model) -> Vec<u8> {
 #[test]
 fn ply_keeps_everything_but_coordinates() {
     let model = ply::read(PLY.as_bytes()).unwrap();
-    assert_eq!(model.points, [[0.0, 0.5, 1.0], [1.0, 0.0, 2.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(
+        model.points,
+        [[0.0, 0.5, 1.0], [1.0, 0.0, 2.0], [0.0, 1.0, 0.0]]
+    );
     assert_eq!(model.faces, [[0, 1, 2]]);
     let text = String::from_utf8(written(&model)).unwrap();
     assert_eq!(
         text,
-        PLY.replace("float x", "double x").replace("float z", "double z").replace(
-            "0 255 0.5 1e0\n1 0 0 2\n0 0 1 0\n",
-            "0.1 255 2 -3\n0.0000001 0 0 1\n4 0 5 6\n"
-        )
+        PLY.replace("float x", "double x")
+            .replace("float z", "double z")
+            .replace(
+                "0 255 0.5 1e0\n1 0 0 2\n0 0 1 0\n",
+                "0.1 255 2 -3\n0.0000001 0 0 1\n4 0 5 6\n"
+            )
     );
     for big in [false, true] {
-        let name = if big { "binary_big_endian" } else { "binary_little_endian" };
-        let mut bytes = PLY[..PLY.find("0 255").unwrap()].replace("ascii", name).into_bytes();
+        let name = if big {
+            "binary_big_endian"
+        } else {
+            "binary_little_endian"
+        };
+        let mut bytes = PLY[..PLY.find("0 255").unwrap()]
+            .replace("ascii", name)
+            .into_bytes();
         let mut put = |little: &[u8]| {
             let mut word = little.to_vec();
             if big {
@@ -402,7 +592,11 @@ fn ply_keeps_everything_but_coordinates() {
             }
             bytes.extend(word);
         };
-        for (x, red, y, z) in [(0.0_f32, 255, 0.5_f64, 1.0_f32), (1.0, 0, 0.0, 2.0), (0.0, 0, 1.0, 0.0)] {
+        for (x, red, y, z) in [
+            (0.0_f32, 255, 0.5_f64, 1.0_f32),
+            (1.0, 0, 0.0, 2.0),
+            (0.0, 0, 1.0, 0.0),
+        ] {
             put(&x.to_le_bytes());
             put(&[red]);
             put(&y.to_le_bytes());
@@ -414,26 +608,76 @@ fn ply_keeps_everything_but_coordinates() {
         }
         put(&0.5_f32.to_le_bytes());
         let binary = ply::read(&bytes).unwrap();
-        assert_eq!((&binary.points, &binary.faces), (&model.points, &model.faces));
+        assert_eq!(
+            (&binary.points, &binary.faces),
+            (&model.points, &model.faces)
+        );
         let again = ply::read(&written(&binary)).unwrap();
-        assert_eq!((again.points.as_slice(), &again.faces), (&MOVED[..], &model.faces));
+        assert_eq!(
+            (again.points.as_slice(), &again.faces),
+            (&MOVED[..], &model.faces)
+        );
     }
 }
 
 #[test]
 fn ply_errors() {
     for (from, to, message) in [
-        ("ply\n", "PLY\n", "line 1: expected \"ply\" on the first line\n  help: this is no PLY file"),
-        ("ascii", "text", "line 2: expected ascii, binary_little_endian or binary_big_endian, found \"text\""),
-        ("property float x", "property half x", "line 5: expected a type of numbers, such as float, found \"half\""),
-        ("property float x", "property float u", "expected one property named x of the element vertex"),
-        ("element vertex", "element point", "expected one element named vertex in the header"),
-        ("vertex 3", "vertex 2", "line 15: expected at least three corners of a face, found 0"),
-        ("vertex 3", "vertex 99", "line 17: expected a value of the property x, found the end of the file\n  help: the file seems to be cut off; write it again"),
-        ("1e0", "nan", "line 13: vertex 0 (counted from 0) has a coordinate that is no finite number"),
-        ("3 0 1 2", "3 0 1 3", "a face names vertex 3, but there are 3 vertices"),
-        ("3 0 1 2", "3 0 -1 2", "line 16: expected a vertex of a face, found -1"),
-        ("end_header", "end", "line 12: expected a line of the header, such as element or property, found \"end\""),
+        (
+            "ply\n",
+            "PLY\n",
+            "line 1: expected \"ply\" on the first line\n  help: this is no PLY file",
+        ),
+        (
+            "ascii",
+            "text",
+            "line 2: expected ascii, binary_little_endian or binary_big_endian, found \"text\"",
+        ),
+        (
+            "property float x",
+            "property half x",
+            "line 5: expected a type of numbers, such as float, found \"half\"",
+        ),
+        (
+            "property float x",
+            "property float u",
+            "expected one property named x of the element vertex",
+        ),
+        (
+            "element vertex",
+            "element point",
+            "expected one element named vertex in the header",
+        ),
+        (
+            "vertex 3",
+            "vertex 2",
+            "line 15: expected at least three corners of a face, found 0",
+        ),
+        (
+            "vertex 3",
+            "vertex 99",
+            "line 17: expected a value of the property x, found the end of the file\n  help: the file seems to be cut off; write it again",
+        ),
+        (
+            "1e0",
+            "nan",
+            "line 13: vertex 0 (counted from 0) has a coordinate that is no finite number",
+        ),
+        (
+            "3 0 1 2",
+            "3 0 1 3",
+            "a face names vertex 3, but there are 3 vertices",
+        ),
+        (
+            "3 0 1 2",
+            "3 0 -1 2",
+            "line 16: expected a vertex of a face, found -1",
+        ),
+        (
+            "end_header",
+            "end",
+            "line 12: expected a line of the header, such as element or property, found \"end\"",
+        ),
     ] {
         assert_eq!(broken(ply::read, PLY, from, to), message);
     }
@@ -482,10 +726,26 @@ fn stl_corners_at_one_place_are_one_vertex() {
 #[test]
 fn stl_errors() {
     for (from, to, message) in [
-        ("vertex 1 0 0", "vertex 1 inf 0", "line 5: expected a coordinate of a corner, found inf, which is no finite number"),
-        ("endloop", "endlop", "line 7: expected endloop, found \"endlop\""),
-        ("endsolid\n", "", "line 16: expected facet or endsolid, found the end of the file\n  help: the file seems to be cut off; write it again"),
-        ("solid two triangles", "so two triangles", "byte 80: expected "),
+        (
+            "vertex 1 0 0",
+            "vertex 1 inf 0",
+            "line 5: expected a coordinate of a corner, found inf, which is no finite number",
+        ),
+        (
+            "endloop",
+            "endlop",
+            "line 7: expected endloop, found \"endlop\"",
+        ),
+        (
+            "endsolid\n",
+            "",
+            "line 16: expected facet or endsolid, found the end of the file\n  help: the file seems to be cut off; write it again",
+        ),
+        (
+            "solid two triangles",
+            "so two triangles",
+            "byte 80: expected ",
+        ),
     ] {
         let error = broken(stl::read, STL, from, to);
         assert!(error.starts_with(message), "{error}");
@@ -513,19 +773,50 @@ fn off_keeps_everything_but_coordinates() {
         "OFF # by hand\n3 1 0\n\n0.1 2 -3 0.5\n0.0000001 0 1\n4 5 6 # last\n3 0 1 2 255 0 0\n"
     );
     for (from, to, message) in [
-        ("OFF", "4OFF", "line 1: expected OFF and the numbers of vertices, faces and edges, found \"4OFF\"\n  help: this is no .off file of points in space"),
-        ("OFF", "OFF BINARY", "line 1: the model is binary; ASCII is read"),
+        (
+            "OFF",
+            "4OFF",
+            "line 1: expected OFF and the numbers of vertices, faces and edges, found \"4OFF\"\n  help: this is no .off file of points in space",
+        ),
+        (
+            "OFF",
+            "OFF BINARY",
+            "line 1: the model is binary; ASCII is read",
+        ),
         ("3 1 0", "4 1 0", "line 7: expected vertex"),
-        ("1 0 0\n", "1 0\n", "line 5: expected three coordinates of a vertex, found 2"),
-        ("1 0 0\n", "1 x 0\n", "line 5: expected a finite coordinate, found \"x\""),
-        ("3 0 1 2 255", "3 0 1 3 255", "line 7: expected a vertex from 0 to 2, found \"3\""),
-        ("3 0 1 2 255 0 0", "9 0 1 2", "line 7: expected 9 corners of a face, found 3"),
-        ("3 0 1 2 255 0 0", "2 0 1", "line 7: expected at least three corners of a face, found 2"),
+        (
+            "1 0 0\n",
+            "1 0\n",
+            "line 5: expected three coordinates of a vertex, found 2",
+        ),
+        (
+            "1 0 0\n",
+            "1 x 0\n",
+            "line 5: expected a finite coordinate, found \"x\"",
+        ),
+        (
+            "3 0 1 2 255",
+            "3 0 1 3 255",
+            "line 7: expected a vertex from 0 to 2, found \"3\"",
+        ),
+        (
+            "3 0 1 2 255 0 0",
+            "9 0 1 2",
+            "line 7: expected 9 corners of a face, found 3",
+        ),
+        (
+            "3 0 1 2 255 0 0",
+            "2 0 1",
+            "line 7: expected at least three corners of a face, found 2",
+        ),
     ] {
         let error = if message.contains("expected vertex") {
             // The face is taken for the fourth vertex, and then the face is missing.
             let error = broken(model_off::read, OFF, from, to);
-            assert_eq!(error, "line 7: expected face 0 of 1, found the end of the file\n  help: the file seems to be cut off; write it again");
+            assert_eq!(
+                error,
+                "line 7: expected face 0 of 1, found the end of the file\n  help: the file seems to be cut off; write it again"
+            );
             continue;
         } else {
             broken(model_off::read, OFF, from, to)

@@ -48,7 +48,7 @@ fn assert_found(points: &[Point], point: Point, embedding: &Embedding) {
 #[test]
 fn every_vertex_is_found_as_itself() {
     let (level, points) = refined();
-    let locator = Locator::new(&level.cells, &level.surface, &points);
+    let locator = Locator::new(&level.cells, level.boundary(), &points);
     for (vertex, point) in points.iter().enumerate() {
         let embedding = locator
             .inside(*point)
@@ -69,7 +69,7 @@ fn every_vertex_is_found_as_itself() {
 #[test]
 fn points_between_cells_are_never_lost() {
     let (level, points) = refined();
-    let locator = Locator::new(&level.cells, &level.surface, &points);
+    let locator = Locator::new(&level.cells, level.boundary(), &points);
     let faces: std::collections::BTreeSet<[u32; 3]> = level
         .cells
         .tetrahedra
@@ -121,7 +121,7 @@ fn points_between_cells_are_never_lost() {
 #[test]
 fn the_lowest_cell_wins() {
     let (level, points) = refined();
-    let locator = Locator::new(&level.cells, &level.surface, &points);
+    let locator = Locator::new(&level.cells, level.boundary(), &points);
     // Every vertex lies in a tetrahedron (each child of a tetrahedron has four corners of them).
     for (vertex, point) in points.iter().enumerate() {
         let lowest = level

@@ -133,8 +133,8 @@ fn sections_are_read_in_place() {
 fn creases_are_extrapolated() {
     let shape = cubes(&[[0, 0, 0]]).triangulated();
     let corners = Features {
-        creases: Vec::new(),
         corners: (0..8).collect(),
+        ..Features::default()
     };
     let mut all = corners.clone();
     for face in &cubes(&[[0, 0, 0]]).faces {

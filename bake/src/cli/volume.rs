@@ -125,7 +125,7 @@ fn read_input(arguments: &Arguments) -> Result<Input> {
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
     let level = Level::new(&mesh).map_err(of_mesh)?;
-    let faces = level.surface.iter().map(|face| face.to_vec());
+    let faces = level.boundary().iter().map(|face| face.to_vec());
     let faces = faces.collect::<Vec<_>>();
     Ok(Input {
         surface: Enclosure::new(&faces, &mesh.features).map_err(of_mesh)?,

@@ -57,6 +57,7 @@ impl Enclosure {
         let features = Features {
             creases: creases.collect(),
             corners: features.corners.iter().filter_map(local).collect(),
+            ..Features::default()
         };
         Ok(Self {
             vertices,
@@ -186,6 +187,7 @@ impl Sharp {
             features: Features {
                 creases: vec![[0; 2]; counts.creases],
                 corners: vec![0; counts.corners],
+                ..Features::default()
             },
             rows: Vec::new(),
         };
