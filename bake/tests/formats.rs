@@ -827,6 +827,9 @@ fn off_keeps_everything_but_coordinates() {
 
 /// Every reader on every beginning of a sound file, and with every byte changed in turn: an answer
 /// or an error, never a panic.
+/// Reads bytes and says whether they were sound.
+type Read = Box<dyn Fn(&[u8]) -> bool>;
+
 #[test]
 fn nothing_makes_a_reader_panic() {
     let solid = |read: Reader| move |bytes: &[u8]| read(bytes).is_ok();
@@ -834,7 +837,7 @@ fn nothing_makes_a_reader_panic() {
     let file = |name: &str| std::fs::read(data(name)).unwrap();
     let mut written = Vec::new();
     write::vtk::write(&mixed(), &mut written).unwrap();
-    let files: Vec<(Vec<u8>, Box<dyn Fn(&[u8]) -> bool>)> = vec![
+    let files: Vec<(Vec<u8>, Read)> = vec![
         (file("gmsh-22-binary.msh"), Box::new(solid(gmsh::read))),
         (file("gmsh-41-binary.msh"), Box::new(solid(gmsh::read))),
         (file("gmsh-binary.vtk"), Box::new(solid(vtk::read))),

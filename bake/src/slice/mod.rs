@@ -161,7 +161,7 @@ impl Field {
     }
 
     fn locator(&self) -> Locator<'_> {
-        Locator::new(&self.level.cells, &self.level.surface, &self.points)
+        Locator::new(&self.level.cells, self.level.boundary(), &self.points)
     }
 
     fn value(&self, embedding: &Embedding) -> f64 {

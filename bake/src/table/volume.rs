@@ -45,7 +45,7 @@ pub(super) fn section(
         }
     };
     let level = Level::new(cage)?;
-    let faces = level.surface.iter().map(|face| face.to_vec());
+    let faces = level.boundary().iter().map(|face| face.to_vec());
     let surface = Enclosure::new(&faces.collect::<Vec<_>>(), &cage.features)?;
     let [form, before] = surface.control_forms(scheme)?;
     let device = DeviceForm::new(&form, rest).map_err(|error| Error::new(error.to_string()))?;
