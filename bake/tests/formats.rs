@@ -6,7 +6,7 @@ use common::{Folder, data, model, octruss};
 use octruss_bake::check;
 use octruss_bake::error::Result;
 use octruss_bake::mesh::{Cells, Channel, Features, Labels, SolidMesh};
-use octruss_bake::read::{self, gmsh, medit, model_off, obj, ply, stl, tetgen, vtk, vtu};
+use octruss_bake::read::{self, gmsh, medit, obj, off, ply, stl, tetgen, vtk, vtu};
 use octruss_bake::write;
 use std::path::Path;
 
@@ -261,7 +261,7 @@ fn medit_errors() {
         (
             "1 3 2 5 2",
             "1 3 2 6 2",
-            "line 29: expected a vertex of a tetrahedron, 1 to 5, found \"6\"\n  help: the section Vertices must come first and hold all vertices",
+            "line 30: expected a vertex of a tetrahedron, 1 to 5, found \"6\"\n  help: the section Vertices must come first and hold all vertices",
         ),
         (
             "Ridges\n1\n1",
@@ -271,17 +271,17 @@ fn medit_errors() {
         (
             "Tetrahedra\n2",
             "TetrahedraP2\n2",
-            "line 26: the section TetrahedraP2 is of second or higher order; a cage has cells with straight edges\n  help: write the mesh at first order",
+            "line 27: the section TetrahedraP2 is of second or higher order; a cage has cells with straight edges\n  help: write the mesh at first order",
         ),
         (
             "Tetrahedra\n2",
             "Hexahedra\n2",
-            "line 27: the mesh has 2 hexahedra; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra alone",
+            "line 28: the mesh has 2 hexahedra; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra alone",
         ),
         (
             "End\n",
             "",
-            "line 30: expected a section or End, found the end of the file\n  help: the file seems to be cut off; write it again",
+            "line 31: expected a section or End, found the end of the file\n  help: the file seems to be cut off; write it again",
         ),
         (
             "Tetrahedra\n2\n1 2 3 4 1\n1 3 2 5 2\n",
@@ -439,7 +439,7 @@ fn vtk_errors() {
         (
             "label int",
             "label float",
-            "line 25: expected a value of the data, found \"POINT_DATA\"",
+            "line 26: expected a value of the data, found \"POINT_DATA\"",
         ),
         (
             "0.1\n-3",
@@ -656,7 +656,7 @@ fn ply_errors() {
         (
             "vertex 3",
             "vertex 99",
-            "line 17: expected a value of the property x, found the end of the file\n  help: the file seems to be cut off; write it again",
+            "line 17: expected a value of the property red, found the end of the file\n  help: the file seems to be cut off; write it again",
         ),
         (
             "1e0",
@@ -765,7 +765,7 @@ const OFF: &str = "OFF # by hand\n3 1 0\n\n0 0 0 0.5\n1 0 0\n0 1 0 # last\n3 0 1
 
 #[test]
 fn off_keeps_everything_but_coordinates() {
-    let model = model_off::read(OFF.as_bytes()).unwrap();
+    let model = off::read(OFF.as_bytes()).unwrap();
     assert_eq!(model.points, [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
     assert_eq!(model.faces, [[0, 1, 2]]);
     assert_eq!(
@@ -812,14 +812,14 @@ fn off_keeps_everything_but_coordinates() {
     ] {
         let error = if message.contains("expected vertex") {
             // The face is taken for the fourth vertex, and then the face is missing.
-            let error = broken(model_off::read, OFF, from, to);
+            let error = broken(off::read, OFF, from, to);
             assert_eq!(
                 error,
                 "line 7: expected face 0 of 1, found the end of the file\n  help: the file seems to be cut off; write it again"
             );
             continue;
         } else {
-            broken(model_off::read, OFF, from, to)
+            broken(off::read, OFF, from, to)
         };
         assert_eq!(error, message);
     }
@@ -845,7 +845,7 @@ fn nothing_makes_a_reader_panic() {
         (MEDIT.into(), Box::new(solid(medit::read))),
         (PLY.into(), Box::new(model(ply::read))),
         (STL.into(), Box::new(model(stl::read))),
-        (OFF.into(), Box::new(model(model_off::read))),
+        (OFF.into(), Box::new(model(off::read))),
     ];
     for (bytes, read) in files {
         assert!(read(&bytes));

@@ -44,9 +44,10 @@ fn refined(mesh: &SolidMesh, rule: BoundaryRule) -> (Vec<Point>, Level, Labels) 
     (points, level, labels)
 }
 
-/// A surface rule takes points of the surface alone. So a flat crease surface stays in its plane,
-/// exactly, and every cell stays on its parent's side, which its label names. Without the crease the
-/// flatter side pulls the vertices between them out of the plane.
+/// A crease's rule takes points of the crease alone, and a surface rule, at edges of two triangles,
+/// those of the surface alone. So a flat crease surface whose rim is a crease stays in its plane,
+/// exactly, and every cell stays on its parent's side, which its label names. Without the surface
+/// the flatter side pulls the vertices inside the rim out of the plane.
 #[test]
 fn a_crease_surface_keeps_its_plane_and_labels_their_side() {
     for rule in [
@@ -55,7 +56,12 @@ fn a_crease_surface_keeps_its_plane_and_labels_their_side() {
         BoundaryRule::TriQuad,
         BoundaryRule::Interior,
     ] {
-        let (points, level, labels) = refined(&two_tetrahedra(vec![[0, 1, 2]]), rule);
+        let with_rim = |faces: Vec<[u32; 3]>| {
+            let mut mesh = two_tetrahedra(faces);
+            mesh.features.creases = vec![[0, 1], [0, 2], [1, 2]];
+            mesh
+        };
+        let (points, level, labels) = refined(&with_rim(vec![[0, 1, 2]]), rule);
         assert_eq!(level.crease_faces().len(), 16);
         for vertex in level.crease_faces().iter().flatten() {
             assert_eq!(points[*vertex as usize][2], 0.0, "{rule:?}");
@@ -66,7 +72,7 @@ fn a_crease_surface_keeps_its_plane_and_labels_their_side() {
             let height: f64 = cell.iter().map(|vertex| points[*vertex as usize][2]).sum();
             assert_eq!(label, if height > 0.0 { 1 } else { -2 }, "{rule:?}");
         }
-        let (smooth, ..) = refined(&two_tetrahedra(vec![]), rule);
+        let (smooth, ..) = refined(&with_rim(vec![]), rule);
         let moves = |vertex: &u32| smooth[*vertex as usize][2] != 0.0;
         assert!(level.crease_faces().iter().flatten().any(moves), "{rule:?}");
     }

@@ -26,24 +26,27 @@ pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
     header(&mut words)?;
     let mut sections = Sections::default();
     loop {
-        let Some(keyword) = words.next_word()? else {
-            return Err(words
-                .error("expected a section or End, found the end of the file")
-                .advise("the file seems to be cut off; write it again"));
-        };
-        match keyword {
+        match keyword(&mut words, "a section or End")? {
             "End" | "END" => break,
-            comment if comment.starts_with('#') => {
-                words.rest_of_line()?;
-            }
             keyword => section(&mut words, keyword, &mut sections)?,
         }
     }
     finish(sections)
 }
 
+/// The next word that is in no comment.
+fn keyword<'a>(words: &mut Words<'a>, expected: &str) -> Result<&'a str> {
+    loop {
+        let word = words.word(expected)?;
+        if !word.starts_with('#') {
+            return Ok(word);
+        }
+        words.rest_of_line()?;
+    }
+}
+
 fn header(words: &mut Words<'_>) -> Result<()> {
-    let first = words.word("MeshVersionFormatted")?;
+    let first = keyword(words, "MeshVersionFormatted")?;
     if first == "MFEM" {
         return Err(words
             .error("this is an MFEM mesh, which is another format with the same extension")
@@ -63,7 +66,7 @@ fn header(words: &mut Words<'_>) -> Result<()> {
             "expected the version of the format, 1 to 4, found \"{version}\""
         )));
     }
-    let keyword = words.word("Dimension")?;
+    let keyword = keyword(words, "Dimension")?;
     let dimension: u32 = words.number("the dimension, 3")?;
     if keyword != "Dimension" || dimension != 3 {
         return Err(words

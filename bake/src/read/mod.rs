@@ -11,7 +11,6 @@ pub mod features;
 pub mod gmsh;
 mod lines;
 pub mod medit;
-pub mod model_off;
 pub mod models;
 pub mod motion;
 pub mod obj;
@@ -123,7 +122,7 @@ pub fn surface(file: &Path) -> Result<SurfaceMesh> {
                 notes,
             })
         },
-        "off" => off::read,
+        "off" => |bytes: &[u8]| off::read(bytes).map(SurfaceMesh::from),
         "ply" => |bytes: &[u8]| ply::read(bytes).map(SurfaceMesh::from),
         "stl" => |bytes: &[u8]| stl::read(bytes).map(SurfaceMesh::from),
         other => {
@@ -143,7 +142,7 @@ pub fn model(file: &Path) -> Result<Model> {
         "obj" => obj::read,
         "ply" => ply::read,
         "stl" => stl::read,
-        "off" => model_off::read,
+        "off" => off::read,
         other => {
             return Err(
                 Error::new(format!("no reader of models for \".{other}\" files"))

@@ -1,114 +1,142 @@
-//! Object File Format (`.off`), ASCII: vertices and polygons.
+//! Models and control meshes as Geomview's Object File Format (`.off`), ASCII.
+//!
+//! The file comes back byte for byte with only the coordinates of its vertices replaced: colours,
+//! normals, comments and line ends stay. Numbers behind a vertex's coordinates and behind a face's
+//! corners are skipped.
 
-use super::words::shown;
+use super::lines::{Word, span_of, words};
+use super::models::Model;
 use crate::error::{Error, Result};
-use crate::surface::SurfaceMesh;
 
-/// Reads a control mesh. Colours after a face's corners are skipped.
-pub fn read(bytes: &[u8]) -> Result<SurfaceMesh> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        Error::new("found bytes that are not text").at_byte(error.valid_up_to())
-    })?;
-    let lines = text.lines().zip(1..).map(|(line, number)| {
-        let content = line.split('#').next().unwrap_or("");
-        (content.split_ascii_whitespace().collect::<Vec<_>>(), number)
-    });
-    let mut lines = lines.filter(|(words, _)| !words.is_empty());
-    let end = || Error::new("the file ends before its counts are filled");
-    let (header, line) = lines.next().ok_or_else(end)?;
-    if header[0] != "OFF" {
-        return Err(
-            Error::new(format!("expected \"OFF\", found \"{}\"", shown(header[0])))
-                .advise("only the plain variant without normals or colours per vertex is read")
-                .at_line(line),
-        );
+/// The lines of a file that hold words.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    start: usize,
+    number: usize,
+}
+
+impl<'a> Lines<'a> {
+    /// The words of the next line that has any, and its number.
+    fn next(&mut self, expected: &str) -> Result<(Vec<Word<'a>>, usize)> {
+        while self.start < self.bytes.len() {
+            let rest = &self.bytes[self.start..];
+            let length = rest.iter().position(|byte| *byte == b'\n');
+            let end = self.start + length.map_or(rest.len(), |length| length + 1);
+            let found = words(self.bytes, self.start..end);
+            self.start = end;
+            self.number += 1;
+            if !found.is_empty() {
+                return Ok((found, self.number));
+            }
+        }
+        Err(
+            Error::new(format!("expected {expected}, found the end of the file"))
+                .at_line(self.number)
+                .advise("the file seems to be cut off; write it again"),
+        )
     }
-    let (counts, line) = match header.len() {
-        1 => lines.next().ok_or_else(end)?,
-        _ => (header[1..].to_vec(), line),
+}
+
+/// Reads a model, or the points and polygons of a control mesh, from the bytes of an `.off` file.
+pub fn read(bytes: &[u8]) -> Result<Model> {
+    let mut lines = Lines {
+        bytes,
+        start: 0,
+        number: 0,
     };
-    let [vertices, faces, ..] = counts.as_slice() else {
-        return Err(Error::new("expected the numbers of vertices and faces").at_line(line));
-    };
-    let (vertices, faces) = (number(vertices, line)?, number(faces, line)?);
-    let mut mesh = SurfaceMesh::default();
-    for _ in 0..vertices {
-        let (words, line) = lines.next().ok_or_else(end)?;
+    let [vertices, faces] = header(&mut lines)?;
+    let mut model = Model::new(bytes);
+    for vertex in 0..vertices {
+        let (words, line) = lines.next(&format!("vertex {vertex} of {vertices}"))?;
         let [x, y, z, ..] = words.as_slice() else {
-            return Err(Error::new("expected three coordinates").at_line(line));
-        };
-        let coordinate = |word: &str| match word.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(Error::new(format!(
-                "expected a finite coordinate, found \"{}\"",
-                shown(word)
+            return Err(Error::new(format!(
+                "expected three coordinates of a vertex, found {}",
+                words.len()
             ))
-            .at_line(line)),
-        };
-        mesh.points
-            .push([coordinate(x)?, coordinate(y)?, coordinate(z)?]);
-    }
-    for _ in 0..faces {
-        let (words, line) = lines.next().ok_or_else(end)?;
-        let count = number(words[0], line)?;
-        let corners = words.get(1..).and_then(|rest| rest.get(..count));
-        let Some(corners) = corners.filter(|corners| corners.len() >= 3) else {
-            return Err(Error::new(
-                "expected a face's number of corners, at least 3, and as many vertices",
-            )
             .at_line(line));
         };
-        let vertex = |word: &&str| match number(word, line)? {
-            index if index < vertices => u32::try_from(index)
-                .map_err(|_| Error::new("more than 2^32 vertices").at_line(line)),
-            index => Err(Error::new(format!(
-                "there is no vertex {index}; the mesh has {vertices}, counted from 0"
+        let point = [
+            x.coordinate(line)?,
+            y.coordinate(line)?,
+            z.coordinate(line)?,
+        ];
+        model.add_point(point, span_of(&words[..3]));
+    }
+    for face in 0..faces {
+        let (words, line) = lines.next(&format!("face {face} of {faces}"))?;
+        let corners = corners(&words, vertices).map_err(|error| error.at_line(line))?;
+        model.faces.push(corners);
+    }
+    if model.points.is_empty() {
+        return Err(Error::new("the model has no vertices"));
+    }
+    Ok(model)
+}
+
+/// The numbers of vertices and faces.
+fn header(lines: &mut Lines<'_>) -> Result<[usize; 2]> {
+    let expected = "OFF and the numbers of vertices, faces and edges";
+    let (first, line) = lines.next(expected)?;
+    let (keyword, rest) = first.split_at(1);
+    let wrong = |word: &Word<'_>, line: usize| {
+        Error::new(format!("expected {expected}, found \"{}\"", word.shown())).at_line(line)
+    };
+    if !matches!(
+        keyword[0].text,
+        b"OFF" | b"COFF" | b"NOFF" | b"CNOFF" | b"STOFF"
+    ) {
+        return Err(wrong(&keyword[0], line).advise("this is no .off file of points in space"));
+    }
+    if rest.first().is_some_and(|word| word.text == b"BINARY") {
+        return Err(Error::new("the model is binary; ASCII is read").at_line(line));
+    }
+    let (counts, line) = if rest.is_empty() {
+        lines.next(expected)?
+    } else {
+        (words(lines.bytes, span_of(rest)), line)
+    };
+    let number = |place: usize| -> Result<usize> {
+        let word = counts.get(place).ok_or_else(|| {
+            Error::new(format!(
+                "expected {expected}, found {} numbers",
+                counts.len()
             ))
-            .at_line(line)),
-        };
-        mesh.faces
-            .push(corners.iter().map(vertex).collect::<Result<_>>()?);
-    }
-    Ok(mesh)
+            .at_line(line)
+        })?;
+        let text = std::str::from_utf8(word.text).ok();
+        text.and_then(|text| text.parse().ok())
+            .ok_or_else(|| wrong(word, line))
+    };
+    Ok([number(0)?, number(1)?])
 }
 
-fn number(word: &str, line: usize) -> Result<usize> {
-    word.parse().map_err(|_| {
-        Error::new(format!(
-            "expected a whole number, found \"{}\"",
-            shown(word)
-        ))
-        .at_line(line)
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn reads_polygons_and_says_where_it_fails() {
-        let text = b"OFF\n# a pyramid\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 0.5 1\n\n4 3 2 1 0\n3 0 1 4 255 0 0\n";
-        let mesh = read(text).unwrap();
-        assert_eq!(mesh.points[4], [0.5, 0.5, 1.0]);
-        assert_eq!(mesh.faces, [vec![3, 2, 1, 0], vec![0, 1, 4]]);
-        for (text, message) in [
-            ("COFF\n", "line 1: expected \"OFF\", found \"COFF\""),
-            (
-                "OFF 1 0 0\n0 0 x\n",
-                "line 2: expected a finite coordinate, found \"x\"",
-            ),
-            (
-                "OFF 1 1 0\n0 0 0\n3 0 0 1\n",
-                "line 3: there is no vertex 1; the mesh has 1, counted from 0",
-            ),
-            (
-                "OFF 2 0 0\n0 0 0\n",
-                "the file ends before its counts are filled",
-            ),
-        ] {
-            let error = read(text.as_bytes()).unwrap_err().to_string();
-            assert!(error.starts_with(message), "{error}");
-        }
+fn corners(words: &[Word<'_>], vertices: usize) -> Result<Vec<u32>> {
+    let number =
+        |word: &Word<'_>| -> Option<usize> { std::str::from_utf8(word.text).ok()?.parse().ok() };
+    let listed = words.first().and_then(number).unwrap_or(0);
+    let Some(corners) = words.get(1..).and_then(|rest| rest.get(..listed)) else {
+        return Err(Error::new(format!(
+            "expected {listed} corners of a face, found {}",
+            words.len() - 1
+        )));
+    };
+    if corners.len() < 3 {
+        return Err(Error::new(format!(
+            "expected at least three corners of a face, found {}",
+            corners.len()
+        )));
     }
+    let vertex = |word: &Word<'_>| {
+        let index = number(word).filter(|index| *index < vertices);
+        index
+            .and_then(|index| u32::try_from(index).ok())
+            .ok_or_else(|| {
+                Error::new(format!(
+                    "expected a vertex from 0 to {}, found \"{}\"",
+                    vertices.saturating_sub(1),
+                    word.shown()
+                ))
+            })
+    };
+    corners.iter().map(vertex).collect()
 }
