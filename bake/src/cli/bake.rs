@@ -38,8 +38,9 @@ pub struct Arguments {
     /// Surfaces: bake where the vertices of the last level go in the limit
     #[arg(long)]
     pub limit: bool,
-    /// Surfaces: also write the refined surface at rest, the model of `octruss deform`
-    #[arg(long, value_name = "OUT.obj")]
+    /// Surfaces: also write the refined surface at rest, the model of `octruss deform`: .obj,
+    /// .ply or .off
+    #[arg(long, value_name = "OUT")]
     pub skin: Option<PathBuf>,
     /// File with the major diagonals of the cage's cells, for `box-spline`: 0, 1 or 2 for each
     /// tetrahedron, then each octahedron, in file order; by default they are chosen

@@ -16,6 +16,9 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
         )
         .advise("leave it out; --skin writes the refined surface"));
     }
+    if let Some(skin) = &arguments.skin {
+        write::require_surface_extension(skin)?;
+    }
     let mesh = read::surface_with_features(&arguments.cage, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
     let options = SurfaceOptions {
@@ -38,11 +41,10 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
     let baked = bake_surface(&mesh, &options, &mut Bars::default())
         .map_err(|error| error.in_file(&arguments.cage))?;
     if let Some(skin) = &arguments.skin {
-        if read::extension(skin) != "obj" {
-            return Err(Error::new("expected a name that ends in .obj").in_file(skin));
-        }
+        let extension = read::extension(skin);
+        let faces: Vec<&[u32]> = baked.level.faces().collect();
         write::atomically(skin, |out| {
-            write::obj::write(&baked.points, baked.level.faces(), out)
+            write::surface(&extension, &baked.points, &faces, out)
         })?;
     }
     write_sources(&baked.bundle, arguments)?;

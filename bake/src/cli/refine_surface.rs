@@ -3,7 +3,7 @@
 use super::refine::{Arguments, Numeric};
 use super::{print_figures, progress::Bars, show_notes};
 use octruss::blend::FixedBlend;
-use octruss_bake::error::{Error, Result, count};
+use octruss_bake::error::{Result, count};
 use octruss_bake::mesh::Point;
 use octruss_bake::progress::Progress;
 use octruss_bake::refine::RealBlend;
@@ -28,11 +28,7 @@ struct Figures {
 /// Runs the command.
 pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
     let extension = read::extension(&arguments.output);
-    if !write::SURFACE_EXTENSIONS.contains(&extension.as_str()) {
-        return Err(Error::new(format!("no writer for \".{extension}\" files"))
-            .advise("a refined surface is written as .obj, .ply or .off")
-            .in_file(&arguments.output));
-    }
+    write::require_surface_extension(&arguments.output)?;
     let mesh = read::surface_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
     let (points, level, figures) =

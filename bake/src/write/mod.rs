@@ -50,6 +50,17 @@ pub fn surface(
     }
 }
 
+/// Error unless [`surface`] writes the format that the file's extension names.
+pub fn require_surface_extension(file: &Path) -> Result<()> {
+    let extension = crate::read::extension(file);
+    if SURFACE_EXTENSIONS.contains(&extension.as_str()) {
+        return Ok(());
+    }
+    Err(no_writer(&extension)
+        .advise("a refined surface is written as .obj, .ply or .off")
+        .in_file(file))
+}
+
 /// Writes triangles and only those vertices that they use, in their order.
 ///
 /// # Errors
