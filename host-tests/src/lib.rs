@@ -21,8 +21,9 @@
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
 //! - [`reference_mixed`] is Hakenberg's scheme for mixed solids written again in the same way;
 //!   [`random_mixed`] draws mixed solids, and [`mixed_subject`] drives the crate under test on
-//!   them, over bits and over exact rows.
+//!   them, over bits and over exact rows ([`blend_f64`]: over rows of doubles).
 
+pub mod blend_f64;
 pub mod box_spline;
 pub mod box_spline_cases;
 pub mod bundle_bytes;

@@ -8,4 +8,5 @@ mod grids;
 mod masks;
 mod precision;
 mod reductions;
+mod spectrum;
 mod surface;

@@ -120,9 +120,8 @@ fn half_sided_moments_are_one_eighth_across() {
                     1.. => ratio(1, 1),
                 };
                 let position = grid.position(index);
-                for axis in 0..3 {
-                    let offset = &position[axis] - &at[axis] / ratio(2, 1);
-                    moment[axis] += &share * weight * offset;
+                for ((sum, old), new) in moment.iter_mut().zip(&position).zip(&at) {
+                    *sum += &share * weight * (old - new / ratio(2, 1));
                 }
             }
             let expected = [ratio(0, 1), ratio(0, 1), ratio(1, 8)];

@@ -42,15 +42,19 @@
 //! Clones are rounded to 8 bits below the last place and are the only intermediate that is rounded;
 //! a clone without distortion is exact. Everything after them is one exact sum, rounded once.
 
+mod arena;
 mod classify;
 mod gather;
 mod masks;
 mod points;
+mod scratch;
 mod split;
 mod unzip;
 
+pub use arena::MixedArena;
 pub use classify::VertexState;
 pub use points::{PointBuffers, refine_points};
+pub use scratch::{NumberingScratch, PointScratch};
 pub use split::{MixedBuffers, MixedCounts, split, split_counts};
 pub use unzip::{VertexDistortion, unzip};
 
