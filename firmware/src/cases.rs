@@ -23,7 +23,7 @@
 //! | 1 | its kind: [`REFINE`], [`REFINE_OWNED`] or [`APPLY`] |
 //! | 1 | a number that the results repeat |
 //! | 1 | number of words n that follow |
-//! | n | what the kind says: see [`refine`] and [`apply`] |
+//! | n | what the kind says: see [`solid`], [`refine`] and [`apply`] |
 //!
 //! # Results
 //!
@@ -46,13 +46,13 @@
 //! | [`SECTION_ROWS`] | coordinates saturated, coordinates of displacements clamped to 16 bits, x y z of each row |
 
 pub mod apply;
-mod guard;
-mod memory;
 pub mod refine;
 mod results;
+pub mod solid;
+mod space;
 
-pub use memory::Memory;
 pub use results::{Results, Sink, Status};
+pub use space::Memory;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 
@@ -94,9 +94,9 @@ pub const SECTION_ROWS: u32 = 3;
 /// has results that say so.
 pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut Results<'_, S>) {
     let done = match kind {
-        REFINE => refine::run(words, &mut memory.refine, results),
-        REFINE_OWNED => refine::run_owned(words, &mut memory.owned, results),
-        APPLY => apply::run(words, &mut memory.refine.points_large, results),
+        REFINE => refine::run(words, memory, results),
+        REFINE_OWNED => refine::run_owned(words, memory, results),
+        APPLY => apply::run(words, memory.space(), results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));

@@ -15,8 +15,8 @@ const MOTION: &str = "models/finger-motion.csv";
 const LEVELS: &str = "2";
 const UNIT: &str = "mm";
 
-/// Random cases of `test`; `verify` takes more.
-const TEST_CASES: u32 = 1_000;
+/// Random cases of `test` on each subject; `verify` takes more.
+const TEST_CASES: u32 = 300;
 
 /// Bakes the example, bends it on an emulated processor, checks every bit.
 pub fn demo() -> Result<(), Failure> {

@@ -34,7 +34,7 @@ enum Job {
     Ci,
     /// The long proofs: many random cases on the host and on the emulated processors
     Verify {
-        /// How many random cases; one in ten is damaged on purpose
+        /// How many random cases of each subject; one in ten is damaged on purpose
         #[arg(long, default_value_t = 12_000)]
         cases: u32,
         /// The seed of the first case; the others follow

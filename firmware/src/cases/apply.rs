@@ -16,16 +16,12 @@
 
 use octruss::bundle::Bundle;
 use octruss::deform::{Displacement, Table};
-use octruss::mesh::{Arena, MeshError};
+use octruss::mesh::Arena;
 use zerocopy::IntoBytes;
 
-use super::guard::lend;
-use super::memory::CONTROL_POINTS;
 use super::results::{Results, Sink, Status};
+use super::space::Space;
 use super::{SECTION_ROWS, Words};
-
-/// The number of the one buffer that is lent.
-const ROW_BUFFER: u32 = 0;
 
 /// What is done with the table.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -35,10 +31,10 @@ enum Form {
     Compact,
 }
 
-/// Runs a case; `memory` is for the rows.
+/// Runs a case.
 pub(super) fn run<S: Sink>(
     words: &[u32],
-    memory: &mut [[i32; 3]],
+    mut space: Space<'_>,
     results: &mut Results<'_, S>,
 ) -> Result<(), Status> {
     let mut words = Words(words);
@@ -58,7 +54,7 @@ pub(super) fn run<S: Sink>(
     words.finish()?;
 
     let bundle = Bundle::new_checked(bundle).map_err(Status::Bundle)?;
-    let (out, behind) = lend(memory, output_length);
+    let out = space.slice(Arena::OutputPoints, output_length, [0; 3])?;
     let (saturated, clamped) = match form {
         Form::Displacement | Form::Absolute => {
             let table = bundle.table::<i32>().map_err(Status::Bundle)?;
@@ -70,24 +66,14 @@ pub(super) fn run<S: Sink>(
         }
         Form::Compact => {
             let table = bundle.compact_table::<i32>().map_err(Status::Bundle)?;
-            let mut displacements = [Displacement::default(); CONTROL_POINTS];
             let needed = table.control_points();
-            let memory = displacements.get_mut(..needed).ok_or(too_small(needed))?;
+            let memory = space.slice(Arena::InputPoints, needed, Displacement::default())?;
             let displacements = table.displacements(pose, memory).map_err(Status::Apply)?;
             let applied = table.apply(rows, &displacements, out);
             (applied.map_err(Status::Apply)?, displacements.saturated())
         }
     };
-    behind.check(ROW_BUFFER)?;
+    space.check()?;
     results.section(SECTION_ROWS, &[saturated, clamped], out);
     Ok(())
-}
-
-/// The displacements do not fit.
-fn too_small(needed: usize) -> Status {
-    Status::Mesh(MeshError::ArenaTooSmall {
-        arena: Arena::InputPoints,
-        needed,
-        given: CONTROL_POINTS,
-    })
 }

@@ -42,6 +42,8 @@ pub enum Status {
     Bundle(BundleError),
     /// 7: the table cannot be applied; the detail is the CRC-32 of the error's message.
     Apply(ApplyError),
+    /// 8: the memory does not hold the arenas of this kind of case.
+    Memory,
 }
 
 impl Status {
@@ -61,6 +63,7 @@ impl Status {
             Status::Mesh(error) => [5, checksum(&error), 0, 0],
             Status::Bundle(error) => [6, checksum(&error), 0, 0],
             Status::Apply(error) => [7, checksum(&error), 0, 0],
+            Status::Memory => [8, 0, 0, 0],
         }
     }
 }

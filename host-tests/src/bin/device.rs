@@ -1,12 +1,13 @@
 //! Runs the firmware's images on emulated processors. `cargo xtask` calls it; it expects the
 //! images to be built.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, ValueEnum as _};
 use octruss_host_tests::qemu::demo::{self, Example, Summary};
-use octruss_host_tests::qemu::judge::judge;
+use octruss_host_tests::qemu::judge::{Subject, judge};
 use octruss_host_tests::qemu::{Machine, Run, image};
 
 /// The processors that every job runs on.
@@ -26,8 +27,11 @@ struct Arguments {
 enum Job {
     /// Holds core on the processors, core on the host and the reference against one another
     Conformance {
-        /// How many random cases
-        #[arg(long, default_value_t = 400)]
+        /// What the cases are about; everything if it is left out
+        #[arg(long, value_delimiter = ',')]
+        subjects: Vec<Subject>,
+        /// How many random cases of each subject
+        #[arg(long, default_value_t = 200)]
         cases: u32,
         /// The first seed; the others follow
         #[arg(long, default_value_t = 0)]
@@ -55,10 +59,17 @@ enum Job {
 fn main() -> ExitCode {
     let passed = match Arguments::parse().job {
         Job::Conformance {
+            subjects,
             cases,
             seed,
             directory,
-        } => conformance(cases, seed, directory),
+        } if subjects.is_empty() => conformance(Subject::value_variants(), cases, seed, &directory),
+        Job::Conformance {
+            subjects,
+            cases,
+            seed,
+            directory,
+        } => conformance(&subjects, cases, seed, &directory),
         Job::Demo {
             directory,
             cage,
@@ -76,14 +87,26 @@ fn main() -> ExitCode {
     }
 }
 
-fn conformance(cases: u32, seed: u32, directory: PathBuf) -> Result<bool, demo::Failure> {
-    let found = judge(&MACHINES, &image("conformance"), &directory, seed, cases)?;
-    println!("{cases} random cases, seeds from {seed}");
-    println!("  host: {}", found.host);
-    for (machine, verdict) in &found.machines {
-        println!("  {} ({}): {verdict}", machine.processor(), machine.name());
+fn conformance(
+    subjects: &[Subject],
+    cases: u32,
+    seed: u32,
+    directory: &Path,
+) -> Result<bool, demo::Failure> {
+    let mut is_equal = true;
+    println!("{cases} random cases of each subject, seeds from {seed}");
+    for &subject in subjects {
+        let started = Instant::now();
+        let image = image("conformance");
+        let found = judge(subject, &MACHINES, &image, directory, seed, cases)?;
+        println!("{subject} ({:.1} s)", started.elapsed().as_secs_f32());
+        println!("  host: {}", found.host);
+        for (machine, verdict) in &found.machines {
+            println!("  {} ({}): {verdict}", machine.processor(), machine.name());
+        }
+        is_equal &= found.is_equal();
     }
-    Ok(found.is_equal())
+    Ok(is_equal)
 }
 
 fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo::Failure> {
