@@ -46,6 +46,14 @@ impl TableFormat {
         Self::CompactFactored,
     ];
 
+    /// The name on the command line.
+    #[must_use]
+    pub fn name(self) -> String {
+        use clap::ValueEnum as _;
+        let value = self.to_possible_value();
+        value.map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+
     fn is_factored(self) -> bool {
         matches!(
             self,

@@ -5,7 +5,6 @@ use super::quantise::{ONE, QuantisedRow};
 use super::volume::VolumeReport;
 use super::{BoundaryRule, FormatReport, Outside, Scheme};
 use crate::error::count;
-use clap::ValueEnum;
 use serde::Serialize;
 use std::fmt;
 
@@ -249,8 +248,7 @@ impl Report {
             "formats     bytes, bytes a tap, estimated instructions a tap (Cortex-M4), error{unit} proved and measured; * is written"
         )?;
         for (place, format) in self.formats.iter().enumerate() {
-            let name = format.format.to_possible_value();
-            let name = name.as_ref().map_or("", |name| name.get_name());
+            let name = format.format.name();
             writeln!(
                 f,
                 "{} {name:<17} {:>9} {:>6.2} {:>6.2} {:>10.3e} {:>10.3e}",

@@ -1,0 +1,117 @@
+//! One table in every format, and the same rows in floating point.
+
+use std::fs;
+use std::path::Path;
+
+use octruss_bake::mesh::Point;
+use octruss_bake::pack::Layout;
+use octruss_bake::pack::cost::Cost;
+use octruss_bake::pack::group::group;
+use octruss_bake::progress::Silent;
+use octruss_bake::refine::rows::Row;
+use octruss_bake::table::{FormatReport, Input, Options, TableFormat, bake};
+use octruss_bake::read;
+
+/// Why nothing can be measured.
+pub type Failure = Box<dyn std::error::Error>;
+
+/// The files, and what the baker says of them.
+pub struct Inputs {
+    /// Rows of the table.
+    pub rows: usize,
+    /// Taps of the rows, before anything is rounded or packed.
+    pub taps: usize,
+    /// Control points.
+    pub control_points: usize,
+    /// Every format.
+    pub formats: Vec<FormatReport>,
+    /// The real rows, for the host.
+    pub real: Vec<Row>,
+    /// Bytes of the bundle in 30-bit weights, for the host.
+    pub q30: Vec<u8>,
+    /// Bytes of a tap in floating point with its index, row starts included.
+    pub csr_bytes_a_tap: f64,
+}
+
+/// Bakes the finger in the formats that the image measures and writes the files into a directory.
+///
+/// # Errors
+/// If a file cannot be read or written, or the baker refuses the cage.
+pub fn make(directory: &Path, cage_file: &Path, model_file: &Path) -> Result<Inputs, Failure> {
+    fs::create_dir_all(directory)?;
+    let cage = read::solid_with_features(cage_file, None)?;
+    let model = read::model(model_file)?;
+    let input = Input {
+        cage: &cage,
+        cage_file,
+        model: &model.points,
+        model_file,
+    };
+    let mut made = None;
+    for (name, format) in [
+        ("compact", TableFormat::Compact),
+        ("q14", TableFormat::Q14),
+        ("q30", TableFormat::Q30),
+    ] {
+        let mut options = Options::default();
+        options.request.format = Some(format);
+        options.request.survey = format == TableFormat::Q30;
+        let baked = bake(input, &options, &mut Silent)?;
+        fs::write(directory.join(format!("{name}.oct")), &baked.bundle)?;
+        made = Some(baked);
+    }
+    let baked = made.ok_or("no format was baked")?;
+    let rows: &[Vec<(u32, f64)>] = &baked.rows;
+    let (bytes, csr_bytes_a_tap) = rivals(rows);
+    fs::write(directory.join("rivals.bin"), bytes)?;
+    let points: &[Point] = &cage.points;
+    Ok(Inputs {
+        rows: rows.len(),
+        taps: rows.iter().map(Vec::len).sum(),
+        control_points: points.len(),
+        formats: baked.report.formats,
+        real: baked.rows,
+        q30: baked.bundle,
+        csr_bytes_a_tap,
+    })
+}
+
+/// The rows in floating point as the image `rivals` reads them, and the bytes of a tap as compressed sparse
+/// rows.
+fn rivals(rows: &[Row]) -> (Vec<u8>, f64) {
+    let taps: usize = rows.iter().map(Vec::len).sum();
+    // The grouping that the 16-bit weights of 32-bit coordinates have.
+    let whole: Vec<Vec<(u32, i32)>> = rows
+        .iter()
+        .map(|row| row.iter().map(|(point, _)| (*point, 1)).collect())
+        .collect();
+    let groups = group(&whole, &Cost::of(Layout::Q14));
+    let (mut weights, mut points, mut sizes) = (Vec::new(), Vec::new(), Vec::new());
+    for group in &groups {
+        sizes.extend([group.rows.len() as u16, group.points.len() as u16]);
+        points.extend(group.points.iter().map(|&point| point as u16));
+        for &row in &group.rows {
+            let weight = |point: &u32| {
+                let tap = rows[row].iter().find(|(other, _)| other == point);
+                tap.map_or(0.0, |(_, weight)| *weight as f32)
+            };
+            weights.extend(group.points.iter().map(weight));
+        }
+    }
+    let counts = [rows.len(), taps, groups.len(), weights.len(), points.len()];
+    let mut bytes: Vec<u8> = counts.iter().flat_map(|&count| (count as u32).to_le_bytes()).collect();
+    let mut start = 0_u32;
+    bytes.extend(start.to_le_bytes());
+    for row in rows {
+        start += row.len() as u32;
+        bytes.extend(start.to_le_bytes());
+    }
+    let all = || rows.iter().flatten();
+    bytes.extend(all().flat_map(|(_, weight)| (*weight as f32).to_le_bytes()));
+    bytes.extend(weights.iter().flat_map(|weight| weight.to_le_bytes()));
+    bytes.extend(sizes.iter().flat_map(|size| size.to_le_bytes()));
+    bytes.extend(all().flat_map(|(point, _)| (*point as u16).to_le_bytes()));
+    bytes.extend(points.iter().flat_map(|point| point.to_le_bytes()));
+    let csr = (6 * taps + 4 * (rows.len() + 1)) as f64 / taps.max(1) as f64;
+    (bytes, csr)
+}

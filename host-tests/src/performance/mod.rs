@@ -1,0 +1,9 @@
+//! What `cargo xtask bench` measures: bytes, instructions and estimated cycles of the apply, beside what one
+//! would write instead, on the same rows.
+//!
+//! [`input`] makes the files that the image `rivals` reads, [`cycles`] asks `llvm-mca` about the hot loops,
+//! [`page`] writes the tables.
+
+pub mod cycles;
+pub mod input;
+pub mod page;

@@ -1,0 +1,128 @@
+//! The tables.
+
+use std::fmt::Write as _;
+
+use super::input::Inputs;
+
+/// A measured loop: its name, instructions for all rows, and estimated cycles a tap on M4 and M7.
+pub struct Line {
+    /// Its name.
+    pub name: String,
+    /// Instructions for all rows.
+    pub instructions: u64,
+    /// Estimated cycles a tap of the hot loop, Cortex-M4 and Cortex-M7.
+    pub cycles: [Option<f64>; 2],
+}
+
+/// What was measured.
+pub struct Measured<'a> {
+    /// The table.
+    pub inputs: &'a Inputs,
+    /// The rival first.
+    pub lines: Vec<Line>,
+    /// Rows a second on this host: core in 30-bit weights, and the real rows in floating point.
+    pub host: [f64; 2],
+    /// Whether two runs gave the same counts.
+    pub is_repeatable: bool,
+}
+
+/// The page in Markdown.
+#[must_use]
+pub fn page(measured: &Measured<'_>) -> String {
+    let inputs = measured.inputs;
+    let mut text = String::from(
+        "# Performance\n\n\
+         Made by `cargo xtask bench`; do not edit. One table, one input: the finger of `models/`, refined\n\
+         twice. Ratios are to the float loop in C, compressed sparse rows, `arm-none-eabi-gcc -O3` with the\n\
+         floating-point unit and fused multiply-add. Instructions are counted on the emulated Cortex-M4,\n\
+         exactly, over whole calls with all overheads; they are not cycles. Cycles are those that\n\
+         `llvm-mca` estimates for the hot loop alone; its Cortex-M4 model is little more than a count.\n\n",
+    );
+    let _ = writeln!(
+        text,
+        "{} rows over {} control points, {} taps ({:.1} a row).\n",
+        inputs.rows,
+        inputs.control_points,
+        inputs.taps,
+        inputs.taps as f64 / inputs.rows.max(1) as f64
+    );
+    bytes(&mut text, inputs);
+    instructions(&mut text, measured);
+    text
+}
+
+fn bytes(text: &mut String, inputs: &Inputs) {
+    text.push_str(
+        "## Formats\n\n\
+         Bytes a tap are those of weights, indices and groups; the table's bytes have start values or rest\n\
+         positions too. Errors are in units in the last place of a coordinate, for control points that move\n\
+         by at most the cage's largest extent. Instructions here are the baker's estimate, which it chooses\n\
+         by. A factored table computes refined points first.\n\n\
+         | format | bytes a tap | bytes of the table | estimated instructions a tap | refined points | error proved | error measured |\n\
+         | --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    let _ = writeln!(
+        text,
+        "| float compressed sparse rows | {:.2} | {:.0} | | | | |",
+        inputs.csr_bytes_a_tap,
+        inputs.csr_bytes_a_tap * inputs.taps as f64
+    );
+    for format in &inputs.formats {
+        let name = format.format.name();
+        let _ = writeln!(
+            text,
+            "| {name} | {:.2} | {} | {:.2} | {} | {:.1} | {:.1} |",
+            format.bytes_a_tap,
+            format.bytes,
+            format.instructions / inputs.taps.max(1) as f64,
+            format.refined_points,
+            format.proved,
+            format.measured
+        );
+    }
+    text.push('\n');
+}
+
+fn instructions(text: &mut String, measured: &Measured<'_>) {
+    text.push_str(
+        "## Instructions and estimated cycles\n\n\
+         | loop | instructions a frame | a tap | ratio | cycles a tap, Cortex-M4 | ratio | cycles a tap, Cortex-M7 | ratio |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    let Some(rival) = measured.lines.first() else {
+        return;
+    };
+    for line in &measured.lines {
+        let a_tap = line.instructions as f64 / measured.inputs.taps.max(1) as f64;
+        let ratio = line.instructions as f64 / rival.instructions.max(1) as f64;
+        let _ = write!(
+            text,
+            "| {} | {} | {a_tap:.2} | {ratio:.2} ",
+            line.name, line.instructions
+        );
+        for (own, others) in line.cycles.iter().zip(rival.cycles) {
+            let _ = match (own, others) {
+                (Some(own), Some(other)) => write!(text, "| {own:.2} | {:.2} ", own / other),
+                _ => write!(text, "| | "),
+            };
+        }
+        text.push_str("|\n");
+    }
+    text.push('\n');
+    if measured.is_repeatable {
+        text.push_str("Two runs gave the same counts.\n");
+    } else {
+        text.push_str("**Two runs gave different counts.**\n");
+    }
+    if rival.cycles[0].is_none() {
+        text.push_str("Cycles are missing: `llvm-mca` is not installed.\n");
+    }
+    let [core, float] = measured.host;
+    let _ = writeln!(
+        text,
+        "\nOn the host that made this page, one thread: {:.1} million rows a second in 32-bit weights, {:.1}\n\
+         for the float loop in Rust on the same rows. OpenSubdiv is not part of this run.",
+        core / 1e6,
+        float / 1e6
+    );
+}
