@@ -12,6 +12,9 @@ use std::path::{Path, PathBuf};
 /// The images that log through `defmt`. `apply` does not: it holds the apply path alone.
 const LOGGING_IMAGES: [&str; 4] = ["bench", "conformance", "demo", "faults"];
 
+/// Where the C library of the image `rivals` is.
+const RIVALS_DIRECTORY: &str = "OCTRUSS_RIVALS_DIR";
+
 /// The directory of the baked example; `target/demo` in the workspace if it is not set.
 const DEMO_DIRECTORY: &str = "OCTRUSS_DEMO_DIR";
 
@@ -25,6 +28,11 @@ fn main() {
     let workspace = package.parent().unwrap_or(&package);
     link(workspace);
     find_demo(workspace);
+    if env::var_os("CARGO_FEATURE_RIVALS").is_some() {
+        println!("cargo::rerun-if-env-changed={RIVALS_DIRECTORY}");
+        println!("cargo::rustc-link-search={}", variable(RIVALS_DIRECTORY));
+        println!("cargo::rustc-link-arg-bin=rivals=-Tdefmt.x");
+    }
 }
 
 fn link(workspace: &Path) {
@@ -68,5 +76,5 @@ fn find_demo(workspace: &Path) {
 
 /// A variable that cargo always sets for a build script.
 fn variable(name: &str) -> String {
-    env::var(name).unwrap_or_else(|error| panic!("cargo did not set {name}: {error}"))
+    env::var(name).unwrap_or_else(|error| panic!("{name} is not set: {error}"))
 }

@@ -7,6 +7,7 @@
 //! - [`rational`] and [`subject`] drive the crate under test on the host: in raw bits between
 //!   guard words, and over rows of rational numbers, so that it hands out its exact masks.
 //! - [`local`] and [`spectrum`] make subdivision matrices of neighbourhoods and analyse them.
+//! - [`performance`] measures the apply beside what one would write instead.
 //! - [`random_bundle`] packs random tables in every format.
 //! - [`random_mesh`] and [`random_table`] draw the random cases, from a seed alone.
 //! - [`equality`] runs core against the reference, [`compare`] says what differs, [`distance`]
@@ -33,6 +34,7 @@ pub mod equality;
 pub mod local;
 pub mod meshes;
 pub mod mixed_subject;
+pub mod performance;
 pub mod qemu;
 pub mod random_bundle;
 pub mod random_mesh;

@@ -128,12 +128,70 @@ pub fn verify(cases: u32, seed: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Instructions a tap.
+/// Every format beside what one would write instead; makes `docs/performance.md`.
 pub fn bench() -> Result<(), Failure> {
-    setup::ensure(&[Need::Targets, Need::Emulator])?;
-    bake_example()?;
-    build_images()?;
-    device(Build::Debug, &["bench"])
+    setup::ensure(&[Need::Targets, Need::Emulator, Need::ArmCompiler])?;
+    if !Program::new("llvm-mca").args(["--version"]).exists() {
+        println!("llvm-mca is not installed (package llvm): estimated cycles are left out.");
+    }
+    let directory = workspace::target()?.join("rivals");
+    compile_rivals(&directory)?;
+    let build = [
+        "build",
+        "--release",
+        "--package",
+        "octruss-firmware",
+        "--features",
+        "rivals",
+        "--bin",
+        "rivals",
+    ];
+    Program::cargo()
+        .args(build)
+        .args(["--target", IMAGE_TARGET])
+        .env("OCTRUSS_RIVALS_DIR", &directory)
+        .run()?;
+    let measure = [
+        "run",
+        "--quiet",
+        "--release",
+        "--package",
+        "octruss-host-tests",
+        "--bin",
+        "performance",
+        "--",
+        "--cage",
+        CAGE,
+        "--model",
+        MODEL,
+        "--output",
+        "docs/performance.md",
+        "--directory",
+    ];
+    with_images(Program::cargo().args(measure).args([&directory]))?.run()
+}
+
+/// Makes `librivals.a`, and the compiler's assembly beside it.
+fn compile_rivals(directory: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(directory)
+        .map_err(|error| format!("cannot make {}: {error}", directory.display()))?;
+    let compiler = || {
+        let flags =
+            "-O3 -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffp-contract=fast";
+        Program::new("arm-none-eabi-gcc")
+            .args(flags.split(' '))
+            .args(["firmware/rivals/rivals.c", "-o"])
+    };
+    let object = directory.join("rivals.o");
+    compiler()
+        .args([directory.join("rivals.s")])
+        .args(["-S"])
+        .run()?;
+    compiler().args([&object]).args(["-c"]).run()?;
+    Program::new("arm-none-eabi-ar")
+        .args(["rcs"])
+        .args([directory.join("librivals.a"), object])
+        .run()
 }
 
 /// How a program of the host is built.

@@ -19,6 +19,8 @@ pub enum Need {
     Clippy,
     /// `qemu-system-arm`.
     Emulator,
+    /// `arm-none-eabi-gcc` and `llvm-mca`, for the rivals of the benchmark alone.
+    ArmCompiler,
 }
 
 /// Everything that any job needs.
@@ -49,6 +51,7 @@ pub fn ensure(needs: &[Need]) -> Result<(), Failure> {
         Need::Rustfmt => ensure_component("rustfmt", || Ok(cargo_has("fmt"))),
         Need::Clippy => ensure_component("clippy", || Ok(cargo_has("clippy"))),
         Need::Emulator => ensure_emulator(),
+        Need::ArmCompiler => ensure_arm_compiler(),
     })
 }
 
@@ -102,6 +105,8 @@ struct PackageManager {
     /// Fetches the current list of packages, where that is a step of its own.
     refresh: Option<&'static [&'static str]>,
     install: &'static [&'static str],
+    /// The packages of the C compiler for Cortex-M and of `llvm-mca`.
+    arm_compiler: &'static [&'static str],
     needs_root: bool,
 }
 
@@ -115,12 +120,14 @@ const PACKAGE_MANAGERS: [PackageManager; 6] = [
             "--no-install-recommends",
             "qemu-system-arm",
         ],
+        arm_compiler: &["gcc-arm-none-eabi", "llvm"],
         needs_root: true,
     },
     PackageManager {
         program: "dnf",
         refresh: None,
         install: &["install", "--assumeyes", "qemu-system-arm"],
+        arm_compiler: &["arm-none-eabi-gcc-cs", "llvm"],
         needs_root: true,
     },
     PackageManager {
@@ -133,24 +140,28 @@ const PACKAGE_MANAGERS: [PackageManager; 6] = [
             "--noconfirm",
             "qemu-system-arm",
         ],
+        arm_compiler: &["arm-none-eabi-gcc", "llvm"],
         needs_root: true,
     },
     PackageManager {
         program: "zypper",
         refresh: Some(&["--non-interactive", "refresh"]),
         install: &["--non-interactive", "install", "qemu-arm"],
+        arm_compiler: &["cross-arm-none-gcc14", "llvm"],
         needs_root: true,
     },
     PackageManager {
         program: "apk",
         refresh: Some(&["update"]),
         install: &["add", "qemu-system-arm"],
+        arm_compiler: &["gcc-arm-none-eabi", "llvm"],
         needs_root: true,
     },
     PackageManager {
         program: "brew",
         refresh: None,
         install: &["install", "qemu"],
+        arm_compiler: &["arm-none-eabi-gcc", "llvm"],
         needs_root: false,
     },
 ];
@@ -197,6 +208,50 @@ fn ensure_emulator() -> Result<(), Failure> {
         return Ok(());
     }
     Err("the package was installed, but `qemu-system-arm --version` still does not run".to_owned())
+}
+
+/// Installs `arm-none-eabi-gcc`, and `llvm-mca` beside it, which the benchmark can do without.
+fn ensure_arm_compiler() -> Result<(), Failure> {
+    let compiler = "arm-none-eabi-gcc";
+    let is_there = |program: &str| Program::new(program).args(["--version"]).exists();
+    if is_there(compiler) && is_there("llvm-mca") {
+        return Ok(());
+    }
+    let by_hand = "install arm-none-eabi-gcc (https://developer.arm.com, GNU toolchain) by hand";
+    let Some(manager) = PACKAGE_MANAGERS
+        .iter()
+        .find(|manager| is_there(manager.program))
+    else {
+        let missing = format!("{compiler} is missing and no package manager was found: {by_hand}");
+        return if is_there(compiler) {
+            Ok(())
+        } else {
+            Err(missing)
+        };
+    };
+    println!(
+        "{compiler} or llvm-mca is missing; {} installs them.",
+        manager.program
+    );
+    if let Some(refresh) = manager.refresh
+        && let Err(failure) = as_root(manager, refresh)?.run()
+    {
+        println!("{failure}; going on with the list of packages that is there.");
+    }
+    // The last word of the command names the emulator's package.
+    let command = manager
+        .install
+        .split_last()
+        .map_or(&[][..], |(_, command)| command);
+    let install = [command, manager.arm_compiler].concat();
+    if let Err(failure) = as_root(manager, &install)?.run() {
+        println!("{failure}");
+    }
+    if is_there(compiler) {
+        Ok(())
+    } else {
+        Err(format!("{compiler} is still missing: {by_hand}"))
+    }
 }
 
 /// The package manager's command, through sudo where it needs more rights than we have.

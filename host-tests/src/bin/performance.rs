@@ -102,7 +102,9 @@ fn figures(arguments: &Arguments) -> Result<Vec<(String, u64)>, Failure> {
         let (name, value) = octruss_firmware::exit::parse_figure(text)?;
         Some((name.to_owned(), value))
     };
-    Ok(messages.filter_map(|message| figure(&message.text)).collect())
+    Ok(messages
+        .filter_map(|message| figure(&message.text))
+        .collect())
 }
 
 /// Rows a second on this machine: core with 30-bit weights, and the real rows in floating point.
@@ -116,11 +118,18 @@ fn host(inputs: &Inputs) -> Result<[f64; 2], Failure> {
         let applied = table.apply(0..table.rows(), black_box(&pose), &mut out);
         black_box(applied.is_ok());
     });
-    let pose: Vec<[f32; 3]> = pose.iter().map(|point| point.map(|bits| bits as f32)).collect();
+    let pose: Vec<[f32; 3]> = pose
+        .iter()
+        .map(|point| point.map(|bits| bits as f32))
+        .collect();
     let rows: Vec<Vec<(usize, f32)>> = inputs
         .real
         .iter()
-        .map(|row| row.iter().map(|&(point, weight)| (point as usize, weight as f32)).collect())
+        .map(|row| {
+            row.iter()
+                .map(|&(point, weight)| (point as usize, weight as f32))
+                .collect()
+        })
         .collect();
     let mut out = vec![[0.0_f32; 3]; rows.len()];
     let float = rows_a_second(inputs.rows, || {

@@ -70,15 +70,34 @@ fn repeated(start: &str) -> Result<String, String> {
 /// If there is no loop with a fused multiplication.
 pub fn c_loop(assembly: &str, function: &str) -> Result<Loop, String> {
     let missing = || format!("the compiler's assembly has no loop in {function}");
-    let (_, body) = assembly.split_once(&format!("\n{function}:")).ok_or_else(missing)?;
+    let (_, body) = assembly
+        .split_once(&format!("\n{function}:"))
+        .ok_or_else(missing)?;
     let lines: Vec<&str> = body.lines().map(str::trim).collect();
-    let fused = lines.iter().position(|line| line.starts_with("vfma")).ok_or_else(missing)?;
-    let end = lines[fused..].iter().position(|line| line.starts_with("bne")).ok_or_else(missing)?;
-    let target = lines[fused + end].split_whitespace().nth(1).ok_or_else(missing)?;
+    let fused = lines
+        .iter()
+        .position(|line| line.starts_with("vfma"))
+        .ok_or_else(missing)?;
+    let end = lines[fused..]
+        .iter()
+        .position(|line| line.starts_with("bne"))
+        .ok_or_else(missing)?;
+    let target = lines[fused + end]
+        .split_whitespace()
+        .nth(1)
+        .ok_or_else(missing)?;
     let label = format!("{target}:");
-    let start = lines[..fused].iter().rposition(|line| *line == label).ok_or_else(missing)?;
-    let is_code = |line: &&&str| !line.ends_with(':') && !line.starts_with(['.', '@']) && !line.is_empty();
-    let code: Vec<&str> = lines[start..=fused + end].iter().filter(is_code).copied().collect();
+    let start = lines[..fused]
+        .iter()
+        .rposition(|line| *line == label)
+        .ok_or_else(missing)?;
+    let is_code =
+        |line: &&&str| !line.ends_with(':') && !line.starts_with(['.', '@']) && !line.is_empty();
+    let code: Vec<&str> = lines[start..=fused + end]
+        .iter()
+        .filter(is_code)
+        .copied()
+        .collect();
     // The branch needs its label.
     let code = format!("{label}\n{}", code.join("\n"));
     Ok(Loop {
@@ -104,7 +123,9 @@ pub fn cycles_a_tap(code: &Loop, processor: &str) -> Option<f64> {
     child.stdin.take()?.write_all(text.as_bytes()).ok()?;
     let output = child.wait_with_output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
-    let line = text.lines().find_map(|line| line.strip_prefix("Total Cycles:"))?;
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("Total Cycles:"))?;
     let cycles: f64 = line.trim().parse().ok()?;
     Some(cycles / ITERATIONS / code.taps)
 }
@@ -118,9 +139,8 @@ mod tests {
     #[test]
     fn kernels_multiply_and_accumulate_and_spill_nothing() {
         let loops = kernels().expect("the kernels' source");
-        let instruction = |code: &str, name: &str| {
-            code.lines().filter(|line| line.starts_with(name)).count()
-        };
+        let instruction =
+            |code: &str, name: &str| code.lines().filter(|line| line.starts_with(name)).count();
         for hot in &loops {
             assert!(!hot.code.contains("sp"), "{} touches the stack", hot.name);
             let instructions = hot.code.lines().filter(|line| !line.is_empty()).count();
@@ -136,6 +156,9 @@ mod tests {
     fn the_innermost_loop_is_found() {
         let assembly = "\nrow:\n\tmov r0, r1\n.L3:\n\tnop\n.L4:\n\tldr r1, [r2]\n\tvfma.f32 s0, s1, s2\n\tbne .L4\n\tbne .L3\n";
         let found = c_loop(assembly, "row").expect("a loop");
-        assert_eq!(found.code, ".L4:\nldr r1, [r2]\nvfma.f32 s0, s1, s2\nbne .L4");
+        assert_eq!(
+            found.code,
+            ".L4:\nldr r1, [r2]\nvfma.f32 s0, s1, s2\nbne .L4"
+        );
     }
 }

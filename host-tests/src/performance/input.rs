@@ -8,9 +8,9 @@ use octruss_bake::pack::Layout;
 use octruss_bake::pack::cost::Cost;
 use octruss_bake::pack::group::group;
 use octruss_bake::progress::Silent;
+use octruss_bake::read;
 use octruss_bake::refine::rows::Row;
 use octruss_bake::table::{FormatReport, Input, Options, TableFormat, bake};
-use octruss_bake::read;
 
 /// Why nothing can be measured.
 pub type Failure = Box<dyn std::error::Error>;
@@ -99,7 +99,10 @@ fn rivals(rows: &[Row]) -> (Vec<u8>, f64) {
         }
     }
     let counts = [rows.len(), taps, groups.len(), weights.len(), points.len()];
-    let mut bytes: Vec<u8> = counts.iter().flat_map(|&count| (count as u32).to_le_bytes()).collect();
+    let mut bytes: Vec<u8> = counts
+        .iter()
+        .flat_map(|&count| (count as u32).to_le_bytes())
+        .collect();
     let mut start = 0_u32;
     bytes.extend(start.to_le_bytes());
     for row in rows {
