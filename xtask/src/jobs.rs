@@ -136,6 +136,7 @@ pub fn bench() -> Result<(), Failure> {
     }
     let directory = workspace::target()?.join("rivals");
     compile_rivals(&directory)?;
+    compile_host_rivals(&directory);
     let build = [
         "build",
         "--release",
@@ -154,7 +155,8 @@ pub fn bench() -> Result<(), Failure> {
     let measure = [
         "run",
         "--quiet",
-        "--release",
+        "--profile",
+        "proof",
         "--package",
         "octruss-host-tests",
         "--bin",
@@ -192,6 +194,26 @@ fn compile_rivals(directory: &Path) -> Result<(), Failure> {
         .args(["rcs"])
         .args([directory.join("librivals.a"), object])
         .run()
+}
+
+/// Makes `host_rivals` where there is a C++ compiler, with OpenSubdiv where that is installed.
+fn compile_host_rivals(directory: &Path) {
+    let compile = |more: &[&str]| {
+        let program = Program::new("c++")
+            .args([
+                "-O3",
+                "-std=c++17",
+                "host-tests/peers/host_rivals.cpp",
+                "-o",
+            ])
+            .args([directory.join("host_rivals")])
+            .args(more);
+        program.output().is_some()
+    };
+    if !compile(&["-losdCPU"]) {
+        println!("OpenSubdiv is not installed (Debian: libosd-dev): it is skipped.");
+        compile(&["-DWITHOUT_OPENSUBDIV"]);
+    }
 }
 
 /// How a program of the host is built.

@@ -20,7 +20,7 @@ use octruss_firmware::instructions::InstructionCounter;
 /// The boards' 16 MiB of memory beyond what the linker knows of.
 const LARGE_MEMORY: usize = 0x2100_0000;
 /// What each file and each output may take of it.
-const PIECE: usize = 2 << 20;
+const PIECE: usize = 5 << 18;
 /// Control points at most.
 const CONTROL_POINTS: usize = 256;
 /// Rows of a dense product that are counted at a time: longer would not fit the counter.
@@ -101,13 +101,19 @@ fn main() -> ! {
         wide(&mut counter, (name, absolute), bytes, pose);
     }
     narrow(&mut counter, compact, pose);
+    let q30 = load(0, c"q30-factored.oct");
+    let q14 = load(1, c"q14-factored.oct");
+    let compact = load(2, c"compact-factored.oct");
+    wide_factored(&mut counter, "q30-factored", q30, pose);
+    wide_factored(&mut counter, "q14-factored", q14, pose);
+    narrow_factored(&mut counter, compact, pose);
     exit::finish()
 }
 
 /// Memory of `T` in one of the pieces.
 fn piece<T>(number: usize) -> &'static mut [T] {
     let first = (LARGE_MEMORY + number * PIECE) as *mut T;
-    // SAFETY: the boards that this image runs on have 16 MiB there, eight pieces, which nothing else uses;
+    // SAFETY: the boards that this image runs on have 16 MiB there, twelve pieces, which nothing else uses;
     // no piece is used for two things at a time, and all types used here are sound with any bits.
     unsafe { slice::from_raw_parts_mut(first, PIECE / size_of::<T>()) }
 }
@@ -265,6 +271,50 @@ fn narrow(counter: &mut InstructionCounter, bytes: &[u8], pose: &[[i32; 3]]) {
     report(counter, "compact", || {
         let displacements = table.displacements(pose, memory);
         black_box(displacements.and_then(|moved| table.apply(0..table.rows(), &moved, out)))
+    });
+}
+
+/// Both stages of a factored table.
+fn wide_factored(counter: &mut InstructionCounter, name: &str, bytes: &[u8], pose: &[[i32; 3]]) {
+    let bundle = Bundle::new_checked(black_box(bytes));
+    let Ok([first, second]) = bundle.and_then(|bundle| bundle.factored_table::<i32>()) else {
+        refuse("a factored bundle for 32-bit coordinates does not open")
+    };
+    let (Some(refined), Some(out)) = (
+        piece::<[i32; 3]>(5).get_mut(..first.rows()),
+        piece::<[i32; 3]>(4).get_mut(..second.rows()),
+    ) else {
+        refuse("the table is too large")
+    };
+    let pose = black_box(pose);
+    report(counter, name, || {
+        let refine = first.apply(0..first.rows(), pose, refined);
+        black_box(refine.and_then(|_| second.apply(0..second.rows(), refined, out)))
+    });
+}
+
+fn narrow_factored(counter: &mut InstructionCounter, bytes: &[u8], pose: &[[i32; 3]]) {
+    let bundle = Bundle::new_checked(black_box(bytes));
+    let tables = bundle.and_then(|bundle| bundle.compact_factored_table::<i32>());
+    let Ok([first, second]) = tables else {
+        refuse("a factored bundle for 16-bit displacements does not open")
+    };
+    let (Some(refined), Some(memory), Some(out)) = (
+        piece::<[i32; 3]>(5).get_mut(..first.rows()),
+        piece::<Displacement>(6).get_mut(..first.rows().max(pose.len())),
+        piece::<[i32; 3]>(4).get_mut(..second.rows()),
+    ) else {
+        refuse("the table is too large")
+    };
+    let pose = black_box(pose);
+    report(counter, "compact-factored", || {
+        let (cage, vertices) = (pose.len(), refined.len());
+        let moved = first.displacements(pose, memory.get_mut(..cage).unwrap_or_default());
+        let refine = moved.and_then(|moved| first.apply(0..vertices, &moved, refined));
+        let moved = refine.and_then(|_| {
+            second.displacements(refined, memory.get_mut(..vertices).unwrap_or_default())
+        });
+        black_box(moved.and_then(|moved| second.apply(0..second.rows(), &moved, out)))
     });
 }
 

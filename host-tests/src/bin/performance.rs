@@ -3,11 +3,12 @@
 
 use std::fs;
 use std::hint::black_box;
-use std::path::PathBuf;
-use std::process::ExitCode;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
+use octruss::deform::Displacement;
 use octruss_bake::bundle::BundleBytes;
 use octruss_host_tests::performance::cycles::{Loop, c_loop, cycles_a_tap, kernels};
 use octruss_host_tests::performance::input::{Failure, Inputs, make};
@@ -66,6 +67,9 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
         "q14",
         "q14 absolute",
         "compact",
+        "q30-factored",
+        "q14-factored",
+        "compact-factored",
     ];
     let mut lines = Vec::new();
     for name in names {
@@ -79,7 +83,7 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
         });
     }
     let measured = Measured {
-        host: host(&inputs)?,
+        host: host(&inputs, &arguments.directory)?,
         inputs: &inputs,
         lines,
         is_repeatable,
@@ -107,49 +111,60 @@ fn figures(arguments: &Arguments) -> Result<Vec<(String, u64)>, Failure> {
         .collect())
 }
 
-/// Rows a second on this machine: core with 30-bit weights, and the real rows in floating point.
-fn host(inputs: &Inputs) -> Result<[f64; 2], Failure> {
-    let bytes = BundleBytes::new(&inputs.q30);
+/// Rows a second on this machine, one thread: core in every format, and the rivals.
+fn host(inputs: &Inputs, directory: &Path) -> Result<Vec<(String, f64)>, Failure> {
+    let mut lines = Vec::new();
+    for (name, file) in [("q30", "q30.oct"), ("q14", "q14.oct")] {
+        let bytes = BundleBytes::read(&directory.join(file))?;
+        let bundle = bytes.open()?;
+        let table = bundle.table::<i32>()?;
+        let pose = bundle.rest_cage();
+        let mut out = vec![[0; 3]; table.rows()];
+        let rows = rows_a_second(inputs.rows, || {
+            let applied = table.apply(0..table.rows(), black_box(pose), &mut out);
+            black_box(applied.is_ok());
+        });
+        lines.push((name.to_owned(), rows));
+    }
+    let bytes = BundleBytes::read(&directory.join("compact.oct"))?;
     let bundle = bytes.open()?;
-    let table = bundle.table::<i32>()?;
-    let pose = bundle.rest_cage().to_vec();
+    let table = bundle.compact_table::<i32>()?;
+    let pose = bundle.rest_cage();
     let mut out = vec![[0; 3]; table.rows()];
-    let core = rows_a_second(inputs.rows, || {
-        let applied = table.apply(0..table.rows(), black_box(&pose), &mut out);
+    let mut memory = vec![Displacement::default(); pose.len()];
+    let rows = rows_a_second(inputs.rows, || {
+        let moved = table.displacements(black_box(pose), &mut memory);
+        let applied = moved.and_then(|moved| table.apply(0..table.rows(), &moved, &mut out));
         black_box(applied.is_ok());
     });
-    let pose: Vec<[f32; 3]> = pose
-        .iter()
-        .map(|point| point.map(|bits| bits as f32))
-        .collect();
-    let rows: Vec<Vec<(usize, f32)>> = inputs
-        .real
-        .iter()
-        .map(|row| {
-            row.iter()
-                .map(|&(point, weight)| (point as usize, weight as f32))
-                .collect()
-        })
-        .collect();
-    let mut out = vec![[0.0_f32; 3]; rows.len()];
-    let float = rows_a_second(inputs.rows, || {
-        for (slot, row) in out.iter_mut().zip(black_box(&rows)) {
-            let mut sum = [0.0; 3];
-            for &(point, weight) in row {
-                for (sum, coordinate) in sum.iter_mut().zip(pose[point]) {
-                    *sum += weight * coordinate;
-                }
-            }
-            *slot = sum;
-        }
-        black_box(&out);
-    });
-    Ok([core, float])
+    lines.push(("compact".to_owned(), rows));
+    lines.extend(peers(directory)?);
+    Ok(lines)
+}
+
+/// What the program `host_rivals` prints: a name, an equals sign and rows a second in each line. Nothing if
+/// it was not built.
+fn peers(directory: &Path) -> Result<Vec<(String, f64)>, Failure> {
+    let program = directory.join("host_rivals");
+    if !program.is_file() {
+        println!("The rivals on the host are left out: there is no C++ compiler.");
+        return Ok(Vec::new());
+    }
+    let output = Command::new(program)
+        .arg(directory.join("rivals.bin"))
+        .output()?;
+    let text = String::from_utf8(output.stdout)?;
+    let line = |line: &str| {
+        let (name, value) = line.split_once('=')?;
+        Some((name.to_owned(), value.parse().ok()?))
+    };
+    let lines: Option<Vec<(String, f64)>> = text.lines().map(line).collect();
+    Ok(lines.ok_or("host_rivals prints something else than figures")?)
 }
 
 /// The best of some runs.
 fn rows_a_second(rows: usize, mut work: impl FnMut()) -> f64 {
-    const RUNS: usize = 30;
+    const RUNS: usize = 300;
     let times = (0..RUNS).map(|_| {
         let start = Instant::now();
         work();

@@ -25,10 +25,6 @@ pub struct Inputs {
     pub control_points: usize,
     /// Every format.
     pub formats: Vec<FormatReport>,
-    /// The real rows, for the host.
-    pub real: Vec<Row>,
-    /// Bytes of the bundle in 30-bit weights, for the host.
-    pub q30: Vec<u8>,
     /// Bytes of a tap in floating point with its index, row starts included.
     pub csr_bytes_a_tap: f64,
 }
@@ -48,17 +44,16 @@ pub fn make(directory: &Path, cage_file: &Path, model_file: &Path) -> Result<Inp
         model_file,
     };
     let mut made = None;
-    for (name, format) in [
-        ("compact", TableFormat::Compact),
-        ("q14", TableFormat::Q14),
-        ("q30", TableFormat::Q30),
-    ] {
+    for format in TableFormat::ALL {
         let mut options = Options::default();
         options.request.format = Some(format);
         options.request.survey = format == TableFormat::Q30;
         let baked = bake(input, &options, &mut Silent)?;
+        let name = format.name();
         fs::write(directory.join(format!("{name}.oct")), &baked.bundle)?;
-        made = Some(baked);
+        if format == TableFormat::Q30 {
+            made = Some(baked);
+        }
     }
     let baked = made.ok_or("no format was baked")?;
     let rows: &[Vec<(u32, f64)>] = &baked.rows;
@@ -70,8 +65,6 @@ pub fn make(directory: &Path, cage_file: &Path, model_file: &Path) -> Result<Inp
         taps: rows.iter().map(Vec::len).sum(),
         control_points: points.len(),
         formats: baked.report.formats,
-        real: baked.rows,
-        q30: baked.bundle,
         csr_bytes_a_tap,
     })
 }

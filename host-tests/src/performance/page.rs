@@ -20,8 +20,8 @@ pub struct Measured<'a> {
     pub inputs: &'a Inputs,
     /// The rival first.
     pub lines: Vec<Line>,
-    /// Rows a second on this host: core in 30-bit weights, and the real rows in floating point.
-    pub host: [f64; 2],
+    /// Rows a second on this host, by name.
+    pub host: Vec<(String, f64)>,
     /// Whether two runs gave the same counts.
     pub is_repeatable: bool,
 }
@@ -48,6 +48,7 @@ pub fn page(measured: &Measured<'_>) -> String {
     );
     bytes(&mut text, inputs);
     instructions(&mut text, measured);
+    host(&mut text, measured);
     text
 }
 
@@ -117,12 +118,24 @@ fn instructions(text: &mut String, measured: &Measured<'_>) {
     if rival.cycles[0].is_none() {
         text.push_str("Cycles are missing: `llvm-mca` is not installed.\n");
     }
-    let [core, float] = measured.host;
-    let _ = writeln!(
-        text,
-        "\nOn the host that made this page, one thread: {:.1} million rows a second in 32-bit weights, {:.1}\n\
-         for the float loop in Rust on the same rows. OpenSubdiv is not part of this run.",
-        core / 1e6,
-        float / 1e6
+}
+
+fn host(text: &mut String, measured: &Measured<'_>) {
+    text.push_str(
+        "\n## On the host\n\n\
+         The same rows on the machine that made this page, one thread, the best of many runs. Other than\n\
+         instructions these figures vary from run to run and from machine to machine.\n\n\
+         | loop | million rows a second | ratio |\n| --- | --- | --- |\n",
     );
+    let peer = measured.host.iter().find(|(name, _)| name == "opensubdiv");
+    for (name, rows) in &measured.host {
+        let _ = write!(text, "| {name} | {:.1} ", rows / 1e6);
+        let _ = match peer {
+            Some((_, other)) => writeln!(text, "| {:.2} |", rows / other),
+            None => writeln!(text, "| |"),
+        };
+    }
+    if peer.is_none() {
+        text.push_str("\nOpenSubdiv was skipped: it is not installed (Debian: libosd-dev).\n");
+    }
 }
