@@ -20,10 +20,10 @@
 //!
 //! | words | what |
 //! | --- | --- |
-//! | 1 | its kind: [`REFINE`], [`REFINE_OWNED`] or [`APPLY`] |
+//! | 1 | its kind: [`REFINE`] or another of the constants below |
 //! | 1 | a number that the results repeat |
 //! | 1 | number of words n that follow |
-//! | n | what the kind says: see [`solid`], [`refine`] and [`apply`] |
+//! | n | what the kind says: see the module of each kind |
 //!
 //! # Results
 //!
@@ -44,8 +44,11 @@
 //! | [`SECTION_CELLS`] | level, then number of elements and CRC-32 of tetrahedra, octahedra, surface triangles, creases and corners at that level |
 //! | [`SECTION_POINTS`] | level, coordinates saturated so far, x y z of each vertex at that level |
 //! | [`SECTION_ROWS`] | coordinates saturated, coordinates of displacements clamped to 16 bits, x y z of each row |
+//! | [`SECTION_DIAGONALS`] | level, then number and CRC-32 of the major diagonals (a byte each) of tetrahedra and octahedra at that level |
+//! | [`SECTION_IMPROPER_FACES`] | three corners of each face where major diagonals clash |
 
 pub mod apply;
+pub mod box_spline;
 pub mod refine;
 mod results;
 pub mod solid;
@@ -55,6 +58,7 @@ pub use results::{Results, Sink, Status};
 pub use space::Memory;
 
 use crc::{CRC_32_ISO_HDLC, Crc};
+use zerocopy::{Immutable, IntoBytes};
 
 /// The checksum of lists and messages.
 static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
@@ -78,6 +82,10 @@ pub const REFINE: u32 = 1;
 pub const REFINE_OWNED: u32 = 2;
 /// Kind of a case: open a bundle and apply its table to a pose.
 pub const APPLY: u32 = 3;
+/// Kind of a case: refine a box-spline solid in slices.
+pub const BOX_SPLINE: u32 = 4;
+/// Kind of a case: refine a box-spline solid in core's own arenas of a fixed size.
+pub const BOX_SPLINE_OWNED: u32 = 5;
 
 /// Tag of the section that ends a case.
 pub const SECTION_END: u32 = 0;
@@ -87,6 +95,10 @@ pub const SECTION_CELLS: u32 = 1;
 pub const SECTION_POINTS: u32 = 2;
 /// Tag of a section with rows of a table.
 pub const SECTION_ROWS: u32 = 3;
+/// Tag of a section about the major diagonals of a level.
+pub const SECTION_DIAGONALS: u32 = 4;
+/// Tag of a section with the faces where major diagonals clash.
+pub const SECTION_IMPROPER_FACES: u32 = 5;
 
 /// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
 ///
@@ -97,9 +109,18 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         REFINE => refine::run(words, memory, results),
         REFINE_OWNED => refine::run_owned(words, memory, results),
         APPLY => apply::run(words, memory.space(), results),
+        BOX_SPLINE => box_spline::run(words, memory, results),
+        BOX_SPLINE_OWNED => box_spline::run_owned(words, memory, results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));
+}
+
+/// The length of a list and the CRC-32 of its bytes.
+#[must_use]
+pub fn summary<Element: IntoBytes + Immutable>(list: &[Element]) -> [u32; 2] {
+    let length = u32::try_from(list.len()).unwrap_or(u32::MAX);
+    [length, CHECKSUM.checksum(list.as_bytes())]
 }
 
 /// Takes things off the front of a case's words.
@@ -128,7 +149,7 @@ impl<'a> Words<'a> {
 
     /// The next `count` points: raw bits of x, y and z.
     fn points(&mut self, count: usize) -> Result<&'a [[i32; 3]], Status> {
-        use zerocopy::{FromBytes, IntoBytes};
+        use zerocopy::FromBytes;
         let words: &[[u32; 3]] = self.elements(count)?;
         // The same size and alignment, so this is never refused.
         <[[i32; 3]]>::ref_from_bytes(words.as_bytes()).map_err(|_| Status::Malformed)

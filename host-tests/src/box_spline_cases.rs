@@ -46,12 +46,14 @@ impl Case {
     /// The case of a seed: boundary choices take turns, and of twelve cases four have diagonals
     /// chosen, four given, four the averaged scheme.
     pub fn new(seed: u64) -> Self {
+        Self::within(seed, &Limits::default())
+    }
+
+    /// The case of a seed within limits; sheets that are hung on later may add some vertices more.
+    pub fn within(seed: u64, limits: &Limits) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let levels = rng.random_range(1..=3);
-        let limits = Limits {
-            levels,
-            ..Limits::default()
-        };
+        let levels = rng.random_range(1..=limits.levels);
+        let limits = Limits { levels, ..*limits };
         let solid = random_solid(&mut rng, &limits);
         let mut diagonal = || rng.random_range(0..3);
         let tetrahedra = solid.tetrahedra.iter().map(|&cell| (cell, diagonal()));

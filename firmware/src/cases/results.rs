@@ -116,6 +116,16 @@ impl<'a, S: Sink> Results<'a, S> {
         self.sink.write(points.as_bytes());
     }
 
+    /// Starts a section of `length` words, which [`Self::words`] then writes.
+    pub(super) fn begin_section(&mut self, tag: u32, length: usize) {
+        self.sink.write([tag, word(length)].as_bytes());
+    }
+
+    /// Writes words of the section that was begun.
+    pub(super) fn words(&mut self, words: &[u32]) {
+        self.sink.write(words.as_bytes());
+    }
+
     /// Writes the section that ends a case.
     pub fn end(&mut self, status: Status) {
         self.section(SECTION_END, &status.words(), &[]);

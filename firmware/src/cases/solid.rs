@@ -21,11 +21,10 @@ use octruss::mesh::{
 };
 use octruss::solid::tet_oct::{Boundary, VertexState, split, split_counts};
 use octruss::surface::LoopWeights;
-use zerocopy::{Immutable, IntoBytes};
 
 use super::results::{Results, Sink, Status};
 use super::space::Space;
-use super::{CHECKSUM, SECTION_CELLS, Words};
+use super::{SECTION_CELLS, Words, summary};
 
 /// More levels than any memory holds; an empty solid could be refined for ever.
 pub(super) const LEVELS_AT_MOST: u32 = 8;
@@ -207,10 +206,4 @@ pub(super) fn write_cells<S: Sink>(level: u32, solid: &Solid<'_>, results: &mut 
         *place = *word;
     }
     results.section(SECTION_CELLS, &words, &[]);
-}
-
-/// The length of a list and the checksum of its bytes.
-pub(super) fn summary<Element: IntoBytes + Immutable>(list: &[Element]) -> [u32; 2] {
-    let length = u32::try_from(list.len()).unwrap_or(u32::MAX);
-    [length, CHECKSUM.checksum(list.as_bytes())]
 }

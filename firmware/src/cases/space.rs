@@ -148,11 +148,11 @@ impl<'a> Space<'a> {
     /// Takes memory aligned for `T`, with a guard behind it; `None` if there is not enough.
     fn bytes<T>(&mut self, count: usize) -> Option<&'a mut [MaybeUninit<u8>]> {
         const { assert!(align_of::<T>() <= align_of::<Unit>()) };
-        if count > self.bytes_free() || self.guards.is_full() {
-            return None;
-        }
         // One unit more than needed, so that the guard has 16 bytes at least.
         let units = count.div_ceil(size_of::<Unit>()).saturating_add(1);
+        if units > self.free.len() || self.guards.is_full() {
+            return None;
+        }
         let (own, rest) = take(&mut self.free).split_at_mut(units);
         self.free = rest;
         // SAFETY: these are the units' own bytes, and they need no values.
@@ -227,6 +227,8 @@ mod tests {
             Ok(&mut [[9; 3]; 4][..])
         );
         assert_eq!(first.bytes_free(), 0);
+        // Not even the guard of an empty buffer fits now.
+        assert!(first.slice(Arena::Corners, 0, 0_u32).is_err());
         assert_eq!(second.bytes_free(), super::BLOCK_BYTES - 7 * 16 - 16);
     }
 

@@ -5,6 +5,7 @@
 //! alone.
 
 mod apply;
+mod box_spline;
 mod tet_oct;
 
 use std::fmt;
@@ -27,6 +28,8 @@ pub enum Subject {
     TetOct,
     /// Tables, applied in every format and form
     Apply,
+    /// Box-spline solids and their averaged variant, major diagonals chosen and given
+    BoxSpline,
 }
 
 impl Subject {
@@ -36,6 +39,7 @@ impl Subject {
         match self {
             Subject::TetOct => tet_oct::case(seed),
             Subject::Apply => apply::case(seed),
+            Subject::BoxSpline => box_spline::case(seed),
         }
     }
 }
