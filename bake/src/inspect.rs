@@ -4,6 +4,7 @@ use crate::check::{self, Volumes};
 use crate::error::Result;
 use crate::geometry::bounds;
 use crate::mesh::{Point, SolidMesh, Vertex};
+use crate::overlap::overlapping_cells;
 use crate::refine::{Interior, Level};
 use octruss::mesh::{Counts, OCTAHEDRON_EDGES, TETRAHEDRON_EDGES};
 use serde::Serialize;
@@ -80,6 +81,8 @@ pub struct Inspection {
     pub flat_cells: Vec<String>,
     /// Octahedra that no diagonal cuts into four tetrahedra of positive volume, by name.
     pub folded_cells: Vec<String>,
+    /// Pairs of cells that share space, by name.
+    pub overlapping_cells: Vec<[String; 2]>,
     /// Arena capacities, level by level.
     pub capacities: Vec<Capacities>,
     /// What the reader left out or found odd.
@@ -214,6 +217,10 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         inverted_cells: names(&volumes.inverted),
         flat_cells: names(&volumes.flat),
         folded_cells: names(&volumes.folded),
+        overlapping_cells: overlapping_cells(&mesh.cells, &mesh.points)
+            .into_iter()
+            .map(|pair| pair.map(|cell| mesh.cells.name(cell)))
+            .collect(),
         capacities: capacities(counts, levels),
         notes: mesh.notes.clone(),
     })
@@ -230,6 +237,16 @@ pub fn interior_edges_of_valence_3(mesh: &SolidMesh) -> Result<Vec<[Vertex; 2]>>
         .iter()
         .filter(|(edge, _)| !surface.triangles.contains_key(*edge));
     Ok(of_three_cells(&interior.collect::<Vec<_>>()))
+}
+
+/// The boundary edges at which other than two boundary triangles meet: the boundary touches itself.
+///
+/// # Errors
+/// If the connectivity is none of a solid.
+pub fn irregular_boundary_edges(mesh: &SolidMesh) -> Result<Vec<[Vertex; 2]>> {
+    let surface = SurfaceEdges::of(Level::new(mesh)?.boundary());
+    let irregular = surface.triangles.iter().filter(|(_, n)| **n != 2);
+    Ok(irregular.map(|(edge, _)| *edge).collect())
 }
 
 fn of_three_cells(edges: &[(&[Vertex; 2], &u32)]) -> Vec<[Vertex; 2]> {

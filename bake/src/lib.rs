@@ -4,7 +4,7 @@
 //!
 //! * [`read`]: meshes, models, features and motions from files, one reader a format, into
 //!   [`mesh::SolidMesh`], [`read::obj::Model`] and frames of points.
-//! * [`check`], [`inspect`]: is it a sound solid, and what is there to know about it.
+//! * [`check`], [`overlap`], [`inspect`]: is it a sound solid, and what is there to know about it.
 //! * [`refine`]: core's subdivision over vectors, in double precision, in the device's bits, or as
 //!   sparse matrices.
 //! * [`surface`]: the same for control meshes of polygons.
@@ -31,6 +31,7 @@ pub mod geometry;
 pub mod inspect;
 pub mod locate;
 pub mod mesh;
+pub mod overlap;
 pub mod pack;
 pub mod picture;
 pub mod progress;

@@ -5,6 +5,7 @@ mod common;
 use common::{Folder, data, model, octruss};
 use octruss_bake::check;
 use octruss_bake::error::Result;
+use octruss_bake::geometry::tetrahedron_volume_6;
 use octruss_bake::mesh::{Cells, Channel, Features, Labels, SolidMesh};
 use octruss_bake::read::{self, gmsh, medit, obj, off, ply, stl, tetgen, vtk, vtu};
 use octruss_bake::write;
@@ -161,6 +162,21 @@ fn tetgen_attributes_are_channels_and_labels() {
     assert_eq!(read_tetgen(from_0.0, from_0.1).unwrap(), expected);
 }
 
+/// TetGen's own files (see `data/tetgen.poly`): a unit cube, whose tetrahedra are all positive and
+/// fill it.
+#[test]
+fn files_of_tetgen() {
+    let mesh = read::solid(&data("tetgen.ele")).unwrap();
+    assert_eq!(mesh, read::solid(&data("tetgen.node")).unwrap());
+    assert_eq!(mesh.points[6], [1.0; 3]);
+    assert_eq!(mesh.labels.tetrahedra, [7; 6]);
+    check::require_positive_volumes(&mesh).unwrap();
+    let volume_6 =
+        |cell: &[u32; 4]| tetrahedron_volume_6(cell.map(|corner| mesh.points[corner as usize]));
+    let sum: f64 = mesh.cells.tetrahedra.iter().map(volume_6).sum();
+    assert_eq!(sum, 6.0);
+}
+
 /// A solid with an octahedron, labels and channels.
 fn mixed() -> SolidMesh {
     SolidMesh {
@@ -271,12 +287,17 @@ fn medit_errors() {
         (
             "Tetrahedra\n2",
             "TetrahedraP2\n2",
-            "line 27: the section TetrahedraP2 is of second or higher order; a cage has cells with straight edges\n  help: write the mesh at first order",
+            "line 28: the mesh has 2 elements of second or higher order (TetrahedraP2); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: write the mesh at first order",
         ),
         (
             "Tetrahedra\n2",
             "Hexahedra\n2",
-            "line 28: the mesh has 2 hexahedra; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra alone",
+            "line 28: the mesh has 2 hexahedra; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone",
+        ),
+        (
+            "Triangles\n1\n1 2 3 0\n",
+            "Prisms\n1\n1 2 3 4 5 6 0\nPyramids\n2\n1 2 3 4 5 0\n1 2 3 4 5 0\n",
+            "line 25: the mesh has 1 prism and 2 pyramids; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone",
         ),
         (
             "End\n",
@@ -342,7 +363,7 @@ fn tetgen_errors_name_the_file() {
         (
             "2 4 1",
             "2 10 1",
-            "cage.ele, line 1: the tetrahedra have 10 vertices: they are of second order; a cage has cells with straight edges\n  help: run TetGen without -o2",
+            "cage.ele, line 1: the mesh has 2 tetrahedra of second order (10 vertices each); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: run TetGen without -o2",
         ),
         (
             "2 4 1",
@@ -429,7 +450,7 @@ fn vtk_errors() {
         (
             "10\n42",
             "12\n42",
-            "line 17: cell 0 (counted from 0) is a hexahedron; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
+            "line 17: the grid has 1 hexahedron, first cell 0 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
         ),
         (
             "4 3 4 5 6",

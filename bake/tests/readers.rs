@@ -3,8 +3,9 @@
 mod common;
 
 use common::{TWO_TETRAHEDRA_2, TWO_TETRAHEDRA_4, data};
+use octruss_bake::check;
 use octruss_bake::mesh::{Cells, Features, Labels, SolidMesh};
-use octruss_bake::read::{features, gmsh, motion, obj, vtu};
+use octruss_bake::read::{features, gmsh, motion, obj, vtk, vtu};
 use octruss_bake::write;
 
 /// The corners of `data/make_vtk_samples.py`.
@@ -138,7 +139,7 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
             TWO_TETRAHEDRA_2,
             "6 4 2 9 1 10 30 20 50",
             "6 11 2 9 1 1 2 3 4 5 6 7 8 9 10",
-            "line 28: element type 11 is of second or higher order; a cage has cells with straight edges\n  help: mesh at first order: Mesh.ElementOrder = 1 in Gmsh, or `gmsh -order 1`",
+            "line 28: the mesh has 1 element of second or higher order (type 11); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh at first order: Mesh.ElementOrder = 1 in Gmsh, or `gmsh -order 1`",
         ),
         (
             TWO_TETRAHEDRA_2,
@@ -150,7 +151,13 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
             TWO_TETRAHEDRA_2,
             "6 4 2 9 1 10 30 20 50",
             "6 7 2 9 1 10 30 20 50 40",
-            "line 28: the mesh has 1 pyramid; a cage of the scheme tet-oct consists of tetrahedra and octahedra\n  help: mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)",
+            "line 28: the mesh has 1 pyramid; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)",
+        ),
+        (
+            TWO_TETRAHEDRA_2,
+            "6\n1 15 2 7 4 40\n",
+            "9\n1 15 2 7 4 40\n7 6 0 1 2 3 4 5 6\n8 5 0 1 2 3 4 5 6 7 8\n9 6 0 1 2 3 4 5 6\n",
+            "line 24: the mesh has 1 hexahedron and 2 prisms; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)",
         ),
         (
             TWO_TETRAHEDRA_2,
@@ -253,6 +260,34 @@ fn vtu_in_every_encoding() {
     }
 }
 
+/// Legacy files that VTK itself wrote. They list an octahedron's faces, so that its corners may come
+/// in another order, with the same opposite pairs. The ASCII file has fewer digits than the numbers.
+#[test]
+fn legacy_vtk_of_vtk_itself() {
+    let expected = split_tetrahedron();
+    for name in ["legacy-42-binary", "legacy-51-binary", "legacy-51-ascii"] {
+        let mesh = vtk::read(&std::fs::read(data(&format!("{name}.vtk"))).unwrap()).unwrap();
+        if name.ends_with("binary") {
+            assert_eq!(mesh.points, expected.points, "{name}");
+        }
+        assert_eq!(mesh.cells.tetrahedra, expected.cells.tetrahedra, "{name}");
+        assert_eq!(mesh.cells.octahedra.len(), 1, "{name}");
+        assert_eq!(
+            opposite_pairs(mesh.cells.octahedra[0]),
+            [[4, 9], [5, 8], [6, 7]]
+        );
+        check::require_positive_volumes(&mesh).unwrap();
+        assert_eq!(mesh.notes, ["left out, for want of volume: 1 triangle"]);
+    }
+}
+
+/// The opposite corners of an octahedron.
+fn opposite_pairs([a, b, c, d, e, f]: [u32; 6]) -> [[u32; 2]; 3] {
+    let mut pairs = [[a, d], [b, e], [c, f]].map(|[p, q]| [p.min(q), p.max(q)]);
+    pairs.sort_unstable();
+    pairs
+}
+
 #[test]
 fn vtu_comes_back_as_it_was_written() {
     let mut mesh = split_tetrahedron();
@@ -276,13 +311,7 @@ fn vtu_octahedron_with_corners_in_any_order() {
                 .as_bytes(),
         );
         let [a, b, c, d, e, f] = mesh.unwrap().cells.octahedra[0];
-        let mut pairs = [
-            [a.min(d), a.max(d)],
-            [b.min(e), b.max(e)],
-            [c.min(f), c.max(f)],
-        ];
-        pairs.sort_unstable();
-        assert_eq!(pairs, [[4, 9], [5, 8], [6, 7]]);
+        assert_eq!(opposite_pairs([a, b, c, d, e, f]), [[4, 9], [5, 8], [6, 7]]);
         let position = |vertex: u32| split_tetrahedron().points[vertex as usize];
         let shape =
             octruss_bake::locate::octahedron::Octahedron::new([a, b, c, d, e, f].map(position));
@@ -307,17 +336,22 @@ fn vtu_errors_name_the_line_and_what_to_do() {
         (
             "10\n10\n10\n10\n42",
             "10\n10\n10\n12\n42",
-            "line 19: cell 3 (counted from 0) is a hexahedron; a cage of the scheme tet-oct consists of tetrahedra and octahedra",
+            "line 19: the grid has 1 hexahedron, first cell 3 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges",
+        ),
+        (
+            "10\n10\n10\n10\n42",
+            "14\n12\n10\n14\n42",
+            "line 19: the grid has 1 hexahedron and 2 pyramids, first cell 0 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume",
         ),
         (
             "10\n10\n10\n10\n42",
             "10\n10\n10\n24\n42",
-            "cell 3 (counted from 0) has cell type 24, which is of second or higher order; a cage has cells with straight edges\n  help: write the mesh at first order",
+            "the grid has 1 cell of second or higher order (type 24), first cell 3 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: write the mesh at first order",
         ),
         (
             "10\n10\n10\n10\n42",
             "10\n10\n10\n99\n42",
-            "cell 3 (counted from 0) has cell type 99, which is not known",
+            "the grid has 1 cell of an unknown type (type 99), first cell 3 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges",
         ),
         (
             "10\n10\n10\n10\n42",

@@ -5,12 +5,14 @@ use super::{
     any_scheme::AnyScheme, bake_surface, print_figures, progress::Bars, show_notes, source,
 };
 use octruss_bake::error::{Error, Result, count};
-use octruss_bake::inspect::interior_edges_of_valence_3;
+use octruss_bake::inspect::{interior_edges_of_valence_3, irregular_boundary_edges};
+use octruss_bake::mesh::SolidMesh;
 use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::surface::RimRule;
 use octruss_bake::table::format::MOST_FRACTION_BITS;
 use octruss_bake::table::{Input, Options, Outside, Request, TableFormat, bake};
-use octruss_bake::{check, read, write};
+use octruss_bake::write::Prepared;
+use octruss_bake::{check, read};
 use std::path::PathBuf;
 
 /// Bakes a deformation table and writes it as a bundle
@@ -123,22 +125,7 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
     };
     let cage = read::solid_with_features(&arguments.cage, arguments.features.as_deref())?;
     show_notes(&cage.notes);
-    let unused = check::unused_vertices(&cage);
-    if let Some(first) = unused.first() {
-        eprintln!(
-            "warning: {} of the cage in no cell, which {} nothing, first vertex {first}",
-            count(unused.len(), "vertex", "vertices"),
-            if unused.len() == 1 { "moves" } else { "move" }
-        );
-    }
-    let edges =
-        interior_edges_of_valence_3(&cage).map_err(|error| error.in_file(&arguments.cage))?;
-    if !edges.is_empty() && scheme == Scheme::TetOct {
-        eprintln!(
-            "warning: {} of three cells, along which the map is not smooth; `octruss info` names them",
-            count(edges.len(), "interior edge", "interior edges")
-        );
-    }
+    warn_of_cage(&cage, scheme).map_err(|error| error.in_file(&arguments.cage))?;
     let model = read::model(model_file)?;
     let diagonals = schemes::diagonals(scheme, arguments.diagonals.as_deref(), &cage)?;
     schemes::warn_of_improper_faces(&cage, scheme, diagonals.as_ref())
@@ -183,16 +170,52 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
     print_figures(&baked.report, arguments.json, || baked.report.to_string())
 }
 
+/// Warns of what a map can be built on, but had better not. Error if the connectivity is none of a
+/// solid.
+fn warn_of_cage(cage: &SolidMesh, scheme: Scheme) -> Result<()> {
+    check::require_sound_connectivity(cage)?;
+    let unused = check::unused_vertices(cage);
+    if let Some(first) = unused.first() {
+        eprintln!(
+            "warning: {} of the cage in no cell, which {} nothing, first vertex {first}",
+            count(unused.len(), "vertex", "vertices"),
+            if unused.len() == 1 { "moves" } else { "move" }
+        );
+    }
+    let edges = interior_edges_of_valence_3(cage)?;
+    if !edges.is_empty() && scheme == Scheme::TetOct {
+        eprintln!(
+            "warning: {} of three cells, along which the map is not smooth; `octruss info` names them",
+            count(edges.len(), "interior edge", "interior edges")
+        );
+    }
+    let touching = irregular_boundary_edges(cage)?;
+    if let Some([a, b]) = touching.first() {
+        eprintln!(
+            "warning: the boundary touches itself at {}, first from vertex {a} to vertex {b} (counted from 0): other than two boundary triangles meet there",
+            count(touching.len(), "edge", "edges")
+        );
+    }
+    Ok(())
+}
+
 /// Writes the bundle, and the sources that hold it.
 pub fn write_sources(bundle: &[u8], arguments: &Arguments) -> Result<()> {
+    // All or none: old sources beside a new bundle would be another table.
+    let mut prepared = Vec::new();
     if let Some(file) = &arguments.rust {
-        write::atomically(file, |out| source::rust(bundle, &arguments.output, out))?;
+        prepared.push(Prepared::new(file, |out| {
+            source::rust(bundle, &arguments.output, out)
+        })?);
     }
     if let Some(file) = &arguments.c {
-        write::atomically(file, |out| source::c(bundle, &arguments.output, out))?;
+        prepared.push(Prepared::new(file, |out| {
+            source::c(bundle, &arguments.output, out)
+        })?);
     }
-    write::atomically(&arguments.output, |out| {
+    prepared.push(Prepared::new(&arguments.output, |out| {
         out.write_all(bundle)
             .map_err(|error| Error::new(format!("cannot be written: {error}")))
-    })
+    })?);
+    prepared.into_iter().try_for_each(Prepared::publish)
 }

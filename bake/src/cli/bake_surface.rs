@@ -3,10 +3,11 @@
 use super::bake::{Arguments, write_sources};
 use super::{print_figures, progress::Bars, show_notes};
 use octruss_bake::error::{Error, Result};
+use octruss_bake::read;
 use octruss_bake::surface::SurfaceScheme;
 use octruss_bake::table::Request;
 use octruss_bake::table::surface::{SurfaceOptions, bake_surface};
-use octruss_bake::{read, write};
+use octruss_bake::write::{self, Prepared};
 
 /// Runs the command.
 pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
@@ -40,13 +41,17 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
     };
     let baked = bake_surface(&mesh, &options, &mut Bars::default())
         .map_err(|error| error.in_file(&arguments.cage))?;
-    if let Some(skin) = &arguments.skin {
-        let extension = read::extension(skin);
-        let faces: Vec<&[u32]> = baked.level.faces().collect();
-        write::atomically(skin, |out| {
-            write::surface(&extension, &baked.points, &faces, out)
-        })?;
-    }
+    let skin = match &arguments.skin {
+        None => None,
+        Some(skin) => {
+            let extension = read::extension(skin);
+            let faces: Vec<&[u32]> = baked.level.faces().collect();
+            Some(Prepared::new(skin, |out| {
+                write::surface(&extension, &baked.points, &faces, out)
+            })?)
+        }
+    };
     write_sources(&baked.bundle, arguments)?;
+    skin.map_or(Ok(()), Prepared::publish)?;
     print_figures(&baked.report, arguments.json, || baked.report.to_string())
 }

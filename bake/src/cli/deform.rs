@@ -84,20 +84,15 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     require_model(&bundle, &model).map_err(|error| error.in_file(&arguments.model))?;
     let (frames, mesh) = poses(&bundle, arguments)?;
     let is_motion = arguments.pose.is_dir() || read::extension(&arguments.pose) == "csv";
+    // All frames before the first file: no motion is left half written by a pose that does not fit.
+    let bits = bits_of(&bundle, &frames, &arguments.pose)?;
     let targets = targets(arguments, &frames, is_motion)?;
 
     let mut progress = Bars::default();
     progress.stage("deforming", frames.len());
     let (mut saturated, mut deformed) = (0, Vec::new());
-    for (index, frame) in frames.iter().enumerate() {
-        let bits = pose_bits(&bundle, &frame.points).map_err(|error| {
-            let message = format!("frame {}: {}", frame.number, error.message());
-            let located = Error::new(message).in_file(&arguments.pose);
-            error
-                .advice()
-                .map_or(located.clone(), |advice| located.advise(advice))
-        })?;
-        let result = deform(&bundle, &bits, arguments.form)?;
+    for (index, bits) in bits.iter().enumerate() {
+        let result = deform(&bundle, bits, arguments.form)?;
         saturated += result.saturated as usize;
         let points = format_of(&bundle).points_of(&result.bits);
         if let Some(target) = targets.get(index) {
@@ -129,6 +124,17 @@ pub fn run(arguments: &Arguments) -> Result<()> {
             count(figures.saturated_coordinates, "coordinate", "coordinates")
         )
     })
+}
+
+/// The frames in the bundle's format.
+fn bits_of(bundle: &Bundle<'_>, frames: &[Frame], file: &Path) -> Result<Vec<Vec<[i32; 3]>>> {
+    let bits = |frame: &Frame| {
+        pose_bits(bundle, &frame.points).map_err(|error| {
+            let message = format!("frame {}: {}", frame.number, error.message());
+            error.with_message(message).in_file(file)
+        })
+    };
+    frames.iter().map(bits).collect()
 }
 
 /// The frames; and for a single pose the mesh that it was.

@@ -148,6 +148,12 @@ fn features_and_volumes(text: &mut String, inspection: &Inspection) {
     ] {
         line(name, some(cells));
     }
+    let pairs: Vec<String> = inspection
+        .overlapping_cells
+        .iter()
+        .map(|[a, b]| format!("{a} with {b}"))
+        .collect();
+    line("cells that share space", some(&pairs));
 }
 
 /// "12 with 4 cells, 3 with 6".
@@ -264,6 +270,9 @@ fn warnings(inspection: &Inspection) -> Vec<String> {
         &inspection.flat_cells,
         &inspection.folded_cells,
     ];
+    if !inspection.overlapping_cells.is_empty() {
+        warnings.push("cells that share space are refused by `octruss bake`: a point there would belong to both".to_owned());
+    }
     if bad.iter().any(|cells| !cells.is_empty()) {
         warnings.push(
             "inverted, flat and folded cells are refused by `octruss bake`; a cell that is only listed in the other order is mended by exchanging two of its corners".to_owned(),

@@ -83,6 +83,11 @@ impl Octahedron {
         sides.all(|side| side * first.signum() >= 0.0)
     }
 
+    /// The four tetrahedra round the chosen diagonal, which cut the octahedron up, by its corners.
+    pub fn parts(&self) -> &[[usize; 4]; 4] {
+        &self.parts
+    }
+
     /// True if the four tetrahedra round the chosen diagonal are all positive.
     pub fn is_sound(&self) -> bool {
         self.parts

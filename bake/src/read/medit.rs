@@ -7,7 +7,7 @@
 //! same extension, are recognised and refused.
 
 use super::words::{Words, shown};
-use crate::error::{Error, Result, count};
+use crate::error::{Error, Result, count, listed};
 use crate::mesh::{SolidMesh, Vertex};
 
 /// What the sections say, until all of them are read.
@@ -18,6 +18,9 @@ struct Sections {
     /// Edges that are creases, with the line of each.
     ridges: Vec<(usize, usize)>,
     ignored: Vec<(usize, &'static str, &'static str)>,
+    /// Elements that a cage cannot hold, section by section, with the line of the number.
+    foreign: Vec<(String, usize)>,
+    has_curved: bool,
 }
 
 /// Reads a mesh from the bytes of a `.mesh` file.
@@ -100,30 +103,28 @@ fn section(words: &mut Words<'_>, keyword: &str, sections: &mut Sections) -> Res
         }
         "Corners" => {
             for _ in 0..words.number::<u64>("the number of corners")? {
-                let [vertex] = corners(words, sections.mesh.points.len(), "the vertex of a corner")?;
+                let [vertex] =
+                    corners(words, sections.mesh.points.len(), "the vertex of a corner")?;
                 sections.mesh.features.corners.push(vertex);
             }
             Ok(())
         }
         "Triangles" => left_out(words, 4, ("triangle", "triangles"), sections),
         "Quadrilaterals" => left_out(words, 5, ("quadrilateral", "quadrilaterals"), sections),
-        "Hexahedra" | "Hexaedra" => foreign(words, ("hexahedron", "hexahedra")),
-        "Prisms" | "Pentahedra" | "Pentaedra" => foreign(words, ("prism", "prisms")),
-        "Pyramids" => foreign(words, ("pyramid", "pyramids")),
+        "Hexahedra" | "Hexaedra" => foreign(words, keyword, ("hexahedron", "hexahedra"), sections),
+        "Prisms" | "Pentahedra" | "Pentaedra" => {
+            foreign(words, keyword, ("prism", "prisms"), sections)
+        }
+        "Pyramids" => foreign(words, keyword, ("pyramid", "pyramids"), sections),
         _ if ["P2", "P3", "P4", "Q2", "Q3", "Q4"]
             .iter()
             .any(|order| keyword.contains(order)) =>
         {
-            Err(words
-                .error(format!(
-                    "the section {} is of second or higher order; a cage has cells with straight edges",
-                    shown(keyword)
-                ))
-                .advise("write the mesh at first order"))
+            sections.has_curved = true;
+            let of = |elements: &str| format!("{elements} of second or higher order ({keyword})");
+            foreign(words, keyword, (&of("element"), &of("elements")), sections)
         }
-        _ if keyword.starts_with(|first: char| first.is_ascii_alphabetic()) => {
-            skip(words, keyword)
-        }
+        _ if keyword.starts_with(|first: char| first.is_ascii_alphabetic()) => skip(words, keyword),
         _ => Err(words
             .error(format!("expected a section, found \"{}\"", shown(keyword)))
             .advise("the number at the start of the section before may be wrong")),
@@ -198,17 +199,19 @@ fn left_out(
     Ok(())
 }
 
-fn foreign(words: &mut Words<'_>, (singular, plural): (&str, &str)) -> Result<()> {
+/// Counts elements that a cage cannot hold and moves past them.
+fn foreign(
+    words: &mut Words<'_>,
+    keyword: &str,
+    (singular, plural): (&str, &str),
+    sections: &mut Sections,
+) -> Result<()> {
     let number: usize = words.number(&format!("the number of {plural}"))?;
-    if number == 0 {
-        return Ok(());
+    if number > 0 {
+        let counted = count(number, singular, plural);
+        sections.foreign.push((counted, words.word_line()));
     }
-    Err(words
-        .error(format!(
-            "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra",
-            count(number, singular, plural)
-        ))
-        .advise("mesh the volume with tetrahedra alone"))
+    skip(words, keyword)
 }
 
 /// Moves past a section that says nothing about the mesh itself: numbers up to the next word.
@@ -227,19 +230,35 @@ fn skip(words: &mut Words<'_>, keyword: &str) -> Result<()> {
 }
 
 fn finish(sections: Sections) -> Result<SolidMesh> {
+    if let Some((_, line)) = sections.foreign.first() {
+        let counted: Vec<String> = sections
+            .foreign
+            .iter()
+            .map(|(name, _)| name.clone())
+            .collect();
+        let advice = match sections.has_curved {
+            true => "write the mesh at first order",
+            false => "mesh the volume with tetrahedra alone",
+        };
+        return Err(Error::new(format!(
+            "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges",
+            listed(&counted)
+        ))
+        .at_line(*line)
+        .advise(advice));
+    }
     let mut mesh = sections.mesh;
-    for (listed, line) in &sections.ridges {
-        let edge = listed
-            .checked_sub(1)
-            .and_then(|index| sections.edges.get(index));
-        let edge = edge.ok_or_else(|| {
+    for (edge, line) in &sections.ridges {
+        let place = edge.checked_sub(1);
+        let crease = place.and_then(|index| sections.edges.get(index));
+        let crease = crease.ok_or_else(|| {
             Error::new(format!(
-                "expected the edge of a ridge, 1 to {}, found \"{listed}\"",
+                "expected the edge of a ridge, 1 to {}, found \"{edge}\"",
                 sections.edges.len()
             ))
             .at_line(*line)
         })?;
-        mesh.features.creases.push(*edge);
+        mesh.features.creases.push(*crease);
     }
     if mesh.cells.is_empty() {
         return Err(Error::new("the mesh has no tetrahedra")

@@ -6,7 +6,7 @@
 //! `.edge` files are not looked at. Empty lines and what follows a `#` are skipped.
 
 use super::words::shown;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, count};
 use crate::mesh::{Channel, Point, SolidMesh, Vertex};
 use std::path::Path;
 
@@ -137,7 +137,7 @@ fn tetrahedra(bytes: &[u8], first: i64, mesh: &mut SolidMesh) -> Result<()> {
     let corners: u32 = header.number("the number of a tetrahedron's vertices, 4")?;
     if corners == 10 {
         return Err(header
-            .error("the tetrahedra have 10 vertices: they are of second order; a cage has cells with straight edges".to_owned())
+            .error(format!("the mesh has {} of second order (10 vertices each); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges", count(usize::try_from(number).unwrap_or(usize::MAX), "tetrahedron", "tetrahedra")))
             .advise("run TetGen without -o2"));
     }
     if corners != 4 {

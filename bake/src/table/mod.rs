@@ -24,6 +24,7 @@ use crate::check::{self, Volumes};
 use crate::error::{Error, Result, count};
 use crate::locate::{Embedding, Locator};
 use crate::mesh::{Point, SolidMesh};
+use crate::overlap;
 use crate::progress::Progress;
 use crate::refine::rows::{Row, RowBlend, compose, composition_error, identity};
 use crate::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
@@ -130,6 +131,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
     let format = choose_format(cage, model, options)?;
     let rest_cage = format.bits_of(&cage.points, "vertex").map_err(of_cage)?;
     let rest_model = format.bits_of(model, "vertex").map_err(of_model)?;
+    overlap::require_none(cage).map_err(of_cage)?;
 
     let refined = refine(cage, options, progress).map_err(of_cage)?;
     let (embeddings, outside) =

@@ -1,7 +1,8 @@
 //! Writers: one for each file format, and the one way a file comes into being.
 //!
 //! An output file is written under a temporary name in its own directory and renamed when it is
-//! complete, so that nobody ever sees half of it and a failure leaves what was there before.
+//! complete, so that nobody ever sees half of it and a failure leaves what was there before. What is no
+//! regular file (a pipe, a device) is written to in place, for it has no name to change.
 
 pub mod obj;
 pub mod off;
@@ -11,8 +12,10 @@ pub mod vtu;
 
 use crate::error::{Error, Result};
 use crate::mesh::{Point, SolidMesh};
+use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// The extensions of the formats that [`solid`] writes.
 pub const SOLID_EXTENSIONS: [&str; 2] = ["vtu", "vtk"];
@@ -108,10 +111,84 @@ fn write_faces(faces: &[&[u32]], out: &mut dyn Write) -> std::io::Result<()> {
 }
 
 /// Creates or replaces `file` with what `content` writes, all or nothing.
+///
+/// # Errors
+/// If `content` fails or the file cannot be written. What was there before is then still there.
 pub fn atomically(file: &Path, content: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
-    let cannot =
-        |error: std::io::Error| Error::new(format!("cannot be written: {error}")).in_file(file);
-    let directory = match file.parent() {
+    Prepared::new(file, content)?.publish()
+}
+
+/// A file that is complete under a temporary name. Dropped, it vanishes.
+///
+/// Of several files that belong together all are prepared before the first is published.
+pub struct Prepared {
+    /// What was asked for, for errors.
+    file: PathBuf,
+    /// Where that leads, if it is a link.
+    target: PathBuf,
+    /// `None` of what is no regular file, such as a pipe: it has its content already.
+    temporary: Option<NamedTempFile>,
+}
+
+impl Prepared {
+    /// Writes what `content` writes beside `file`, down to the disk.
+    ///
+    /// # Errors
+    /// If `content` fails or there is no place to write.
+    pub fn new(file: &Path, content: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<Self> {
+        let cannot = |error: std::io::Error| failed(error).in_file(file);
+        // A link stays, and what it leads to is replaced.
+        let target = std::fs::canonicalize(file).unwrap_or_else(|_| file.to_path_buf());
+        let temporary = match std::fs::metadata(&target) {
+            Ok(found) if found.is_dir() => {
+                return Err(Error::new("cannot be written: it is a folder").in_file(file));
+            }
+            Ok(found) if !found.is_file() => {
+                let device = File::options().write(true).open(&target).map_err(cannot)?;
+                fill(device, content).map_err(|error| error.in_file(file))?;
+                None
+            }
+            _ => {
+                let temporary = temporary_beside(&target).map_err(cannot)?;
+                let temporary = fill(temporary, content).map_err(|error| error.in_file(file))?;
+                // Some file systems tell only now that the disk is full.
+                temporary.as_file().sync_all().map_err(cannot)?;
+                Some(temporary)
+            }
+        };
+        Ok(Self {
+            file: file.to_path_buf(),
+            target,
+            temporary,
+        })
+    }
+
+    /// Gives the file its name, in place of what had it before.
+    ///
+    /// # Errors
+    /// If the name cannot be given.
+    pub fn publish(self) -> Result<()> {
+        match self
+            .temporary
+            .map(|temporary| temporary.persist(&self.target))
+        {
+            None | Some(Ok(_)) => Ok(()),
+            Some(Err(error)) => Err(failed(error.error).in_file(&self.file)),
+        }
+    }
+}
+
+/// Gives back the file with all content in it.
+fn fill<W: Write>(file: W, content: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<W> {
+    let mut writer = BufWriter::new(file);
+    content(&mut writer)?;
+    writer
+        .into_inner()
+        .map_err(|error| failed(error.into_error()))
+}
+
+fn temporary_beside(target: &Path) -> std::io::Result<NamedTempFile> {
+    let directory = match target.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
@@ -123,19 +200,10 @@ pub fn atomically(file: &Path, content: impl FnOnce(&mut dyn Write) -> Result<()
         // As for any new file: the user's mask takes away what others may not do.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    let temporary = builder.tempfile_in(directory).map_err(cannot)?;
-    let mut writer = BufWriter::new(temporary);
-    content(&mut writer).map_err(|error| error.in_file(file))?;
-    let temporary = writer
-        .into_inner()
-        .map_err(|error| cannot(error.into_error()))?;
-    temporary
-        .persist(file)
-        .map_err(|error| cannot(error.error))?;
-    Ok(())
+    builder.tempfile_in(directory)
 }
 
-/// The error of a failed write, to be given a file name by [`atomically`].
+/// The error of a failed write, to be given a file name by [`Prepared`].
 pub(crate) fn failed(error: std::io::Error) -> Error {
     Error::new(format!("cannot be written: {error}"))
 }

@@ -61,3 +61,15 @@ for name, mode, compressed, base64, header, little in SAMPLES:
     writer.SetHeaderTypeToUInt32() if header == 32 else writer.SetHeaderTypeToUInt64()
     writer.SetByteOrderToLittleEndian() if little else writer.SetByteOrderToBigEndian()
     writer.Write()
+
+for name, binary, version in [
+    ("legacy-42-binary", True, 42),
+    ("legacy-51-binary", True, 51),
+    ("legacy-51-ascii", False, 51),
+]:
+    writer = vtk.vtkUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetFileName(f"{name}.vtk")
+    writer.SetFileVersion(version)
+    writer.SetFileTypeToBinary() if binary else writer.SetFileTypeToASCII()
+    writer.Write()

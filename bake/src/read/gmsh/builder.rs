@@ -1,7 +1,7 @@
 //! Turns Gmsh's nodes, elements and physical groups into a solid mesh.
 
-use super::elements::ElementType;
-use crate::error::{Error, Place, Result, count};
+use super::elements::{ElementType, ORDER_ADVICE};
+use crate::error::{Error, Place, Result, listed};
 use crate::mesh::{Point, SolidMesh, Vertex};
 use std::collections::{BTreeMap, HashMap};
 
@@ -15,7 +15,7 @@ pub struct Builder {
     vertex_of_tag: HashMap<u64, Vertex>,
     group_names: HashMap<Group, String>,
     ignored: BTreeMap<ElementType, usize>,
-    /// Volume elements that are no tetrahedra: how many, and where the first stands.
+    /// Elements that a cage cannot hold: how many, and where the first stands.
     foreign: BTreeMap<ElementType, (usize, Place)>,
 }
 
@@ -81,7 +81,7 @@ impl Builder {
                 .at(place)
                 .advise("mesh the surface with triangles, or rename the group"));
             }
-            _ if kind.dimension() == 3 => self.foreign.entry(kind).or_insert((0, place)).0 += 1,
+            _ if kind.is_foreign() => self.foreign.entry(kind).or_insert((0, place)).0 += 1,
             _ => *self.ignored.entry(kind).or_default() += 1,
         }
         Ok(())
@@ -106,13 +106,25 @@ impl Builder {
 
     /// The mesh, with notes on what was left out.
     pub fn finish(mut self) -> Result<SolidMesh> {
-        if let Some((kind, (number, place))) = self.foreign.iter().next() {
+        if let Some((_, (_, place))) = self.foreign.iter().min_by_key(|(_, (_, place))| *place) {
+            let counted: Vec<String> = self
+                .foreign
+                .iter()
+                .map(|(kind, (number, _))| kind.counted(*number))
+                .collect();
+            let is_curved = |kind: &ElementType| matches!(kind, ElementType::Curved(_));
+            let advice = match self.foreign.keys().any(is_curved) {
+                true => ORDER_ADVICE,
+                false => {
+                    "mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)"
+                }
+            };
             return Err(Error::new(format!(
-                "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra",
-                count(*number, kind.names().0, kind.names().1)
+                "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges",
+                listed(&counted)
             ))
             .at(*place)
-            .advise("mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)"));
+            .advise(advice));
         }
         if self.mesh.cells.is_empty() {
             return Err(Error::new("the mesh has no tetrahedra").advise(
@@ -122,7 +134,7 @@ impl Builder {
         let ignored: Vec<String> = self
             .ignored
             .iter()
-            .map(|(kind, number)| count(*number, kind.names().0, kind.names().1))
+            .map(|(kind, number)| kind.counted(*number))
             .collect();
         if !ignored.is_empty() {
             self.mesh.notes.push(format!(

@@ -1,7 +1,7 @@
 //! The cells of VTK's grids, whichever file they come from.
 
 use super::octahedron;
-use crate::error::{Error, Result, count};
+use crate::error::{Error, Result, count, listed};
 use crate::mesh::{SolidMesh, Vertex};
 use std::collections::BTreeMap;
 
@@ -22,32 +22,53 @@ fn ignored_name(kind: i64) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// Why a cell type with volume is refused, and what to do.
-fn refusal(kind: i64) -> (String, &'static str) {
-    let name = match kind {
-        11 => "a voxel",
-        12 => "a hexahedron",
-        13 => "a wedge (prism)",
-        14 => "a pyramid",
-        15 | 16 => "a prism with more than four sides",
-        21..=37 | 60..=81 => {
-            return (
-                format!(
-                    "has cell type {kind}, which is of second or higher order; a cage has cells with straight edges"
-                ),
-                "write the mesh at first order",
-            );
-        }
+/// Whether a cell type is of second or higher order.
+fn is_curved(kind: i64) -> bool {
+    matches!(kind, 21..=37 | 60..=81)
+}
+
+/// So many cells of a type that a cage cannot hold, for messages.
+fn foreign_counted(kind: i64, number: usize) -> String {
+    let (singular, plural) = match kind {
+        11 => ("voxel", "voxels"),
+        12 => ("hexahedron", "hexahedra"),
+        13 => ("wedge (prism)", "wedges (prisms)"),
+        14 => ("pyramid", "pyramids"),
+        15 | 16 => (
+            "prism with more than four sides",
+            "prisms with more than four sides",
+        ),
         _ => {
-            return (
-                format!("has cell type {kind}, which is not known"),
-                "a cage consists of tetrahedra (type 10) and octahedra (polyhedra, type 42)",
-            );
+            let cells = count(number, "cell", "cells");
+            return match is_curved(kind) {
+                true => format!("{cells} of second or higher order (type {kind})"),
+                false => format!("{cells} of an unknown type (type {kind})"),
+            };
         }
     };
-    (
-        format!("is {name}; a cage of the scheme tet-oct consists of tetrahedra and octahedra"),
-        "mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
+    count(number, singular, plural)
+}
+
+/// The error for cells that a cage cannot hold: their types, how many of each, and the first.
+fn refused(foreign: &BTreeMap<i64, (usize, usize)>) -> Option<Error> {
+    let first = foreign.values().map(|(_, first)| first).min()?;
+    let counted: Vec<String> = foreign
+        .iter()
+        .map(|(kind, (number, _))| foreign_counted(*kind, *number))
+        .collect();
+    let advice = if foreign.keys().any(|kind| is_curved(*kind)) {
+        "write the mesh at first order"
+    } else if foreign.keys().all(|kind| (11..=16).contains(kind)) {
+        "mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")"
+    } else {
+        "a cage consists of tetrahedra (type 10) and octahedra (polyhedra, type 42)"
+    };
+    Some(
+        Error::new(format!(
+            "the grid has {}, first cell {first} (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges",
+            listed(&counted)
+        ))
+        .advise(advice),
     )
 }
 
@@ -78,6 +99,8 @@ pub fn add_all(
     mesh: &mut SolidMesh,
 ) -> Result<Vec<Kept>> {
     let mut ignored: BTreeMap<i64, usize> = BTreeMap::new();
+    // How many of each type, and the first.
+    let mut foreign: BTreeMap<i64, (usize, usize)> = BTreeMap::new();
     let mut kept = Vec::new();
     for (index, cell) in cells.enumerate() {
         let of_cell = |error: Error| {
@@ -85,11 +108,18 @@ pub fn add_all(
             error.with_message(message)
         };
         let cell = cell.map_err(of_cell)?;
+        if !matches!(cell.kind, TETRAHEDRON | POLYHEDRON) && ignored_name(cell.kind).is_none() {
+            foreign.entry(cell.kind).or_insert((0, index)).0 += 1;
+            continue;
+        }
         let place = add(&cell, mesh).map_err(of_cell)?;
         if place == Kept::LeftOut {
             *ignored.entry(cell.kind).or_default() += 1;
         }
         kept.push(place);
+    }
+    if let Some(error) = refused(&foreign) {
+        return Err(error);
     }
     if mesh.cells.is_empty() {
         return Err(Error::new("the grid has no tetrahedra and no octahedra"));
@@ -118,11 +148,7 @@ fn add(cell: &Cell, mesh: &mut SolidMesh) -> Result<Kept> {
             mesh.cells.octahedra.push(corners);
             Ok(Kept::Octahedron)
         }
-        kind if ignored_name(kind).is_some() => Ok(Kept::LeftOut),
-        kind => {
-            let (message, advice) = refusal(kind);
-            Err(Error::new(message).advise(advice))
-        }
+        _ => Ok(Kept::LeftOut),
     }
 }
 
