@@ -6,6 +6,7 @@ mod bake_surface;
 mod deform;
 mod forms;
 mod info;
+mod locate;
 mod poses;
 mod progress;
 mod refine;
@@ -41,6 +42,7 @@ enum Command {
     Refine(refine::Arguments),
     Bake(bake::Arguments),
     Deform(deform::Arguments),
+    Locate(locate::Arguments),
     Slice(slice::Arguments),
     Poses(poses::Arguments),
     Volume(volume::Arguments),
@@ -54,6 +56,7 @@ pub fn run() -> ExitCode {
         Command::Refine(arguments) => refine::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments),
         Command::Deform(arguments) => deform::run(&arguments),
+        Command::Locate(arguments) => locate::run(&arguments),
         Command::Slice(arguments) => slice::run(&arguments),
         Command::Poses(arguments) => poses::run(&arguments),
         Command::Volume(arguments) => volume::run(&arguments),

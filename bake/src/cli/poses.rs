@@ -16,7 +16,8 @@ use std::path::PathBuf;
 /// nothing before, between or after: 12 bytes for each control point and frame.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The cage: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu; held against the bundle
+    /// The cage: Gmsh .msh, VTK .vtu or .vtk, Medit .mesh, TetGen .node with .ele; held against the
+    /// bundle
     cage: PathBuf,
     /// The motion: a .csv with the columns frame, point, x, y, z, or a directory of numbered meshes
     #[arg(long, value_name = "MOTION")]

@@ -17,7 +17,7 @@ use std::path::PathBuf;
 /// cage. Values are refined by the masks that refine positions.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The cage: Gmsh .msh (2.2 or 4.1, ASCII) or VTK .vtu
+    /// The cage: Gmsh .msh, VTK .vtu or .vtk, Medit .mesh, TetGen .node with .ele
     mesh: PathBuf,
     /// The plane a x + b y + c z = d: four numbers parted by commas
     #[arg(long, value_name = "A,B,C,D", value_parser = numbers::<4>, allow_hyphen_values = true)]
@@ -41,7 +41,7 @@ pub struct Arguments {
     /// What the boundary follows
     #[arg(long, value_enum, default_value_t)]
     boundary: BoundaryRule,
-    /// File with creases and corners: a line each, `crease A B` or `corner A`
+    /// File with features: a line each, `crease A B`, `crease-face A B C` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
     /// How many lines of equal value to draw

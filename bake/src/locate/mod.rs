@@ -5,10 +5,12 @@
 //! octahedra, each in their order. A point that no cell contains has a nearest point on the
 //! boundary; who asks decides what becomes of it ([`Nearest`]).
 
+mod cage;
 mod nearest;
 pub mod octahedron;
 pub mod tetrahedron;
 
+pub use cage::{Located, RefinedCage};
 pub use nearest::Nearest;
 
 use crate::geometry::bounds;
@@ -54,6 +56,12 @@ impl<'a> Locator<'a> {
     /// The point as a weighted sum of the corners of the lowest cell that contains it; `None` if no
     /// cell does.
     pub fn inside(&self, point: Point) -> Option<Embedding> {
+        self.find(point).map(|(_, embedding)| embedding)
+    }
+
+    /// The lowest cell that contains the point, as a place in [`Cells::corners`], and the point as a
+    /// weighted sum of its corners.
+    pub fn find(&self, point: Point) -> Option<(usize, Embedding)> {
         let mut candidates: Vec<usize> = self
             .tree
             .locate_all_at_point(point)
@@ -62,7 +70,7 @@ impl<'a> Locator<'a> {
         candidates.sort_unstable();
         candidates
             .into_iter()
-            .find_map(|cell| self.in_cell(cell, point))
+            .find_map(|cell| Some((cell, self.in_cell(cell, point)?)))
     }
 
     /// The nearest point of the boundary. `None` if the solid has no boundary.
@@ -75,40 +83,44 @@ impl<'a> Locator<'a> {
 
     /// The point, which lies outside, in the coordinates of the boundary cell behind `nearest`.
     pub fn extrapolated(&self, nearest: &Nearest, point: Point) -> Option<Embedding> {
-        let face = self.surface[nearest.triangle];
-        let holds_face = |corners: &[u32]| face.iter().all(|vertex| corners.contains(vertex));
-        let middle = nearest.middle(face.map(|vertex| self.points[vertex as usize]));
-        // The cell's box holds its face, and so the middle of it.
-        let mut candidates: Vec<usize> = self
-            .tree
-            .locate_all_at_point(middle)
-            .map(|candidate| candidate.data)
-            .collect();
-        candidates.sort_unstable();
-        for cell in candidates {
-            match cell.checked_sub(self.cells.tetrahedra.len()) {
-                None => {
-                    let corners = &self.cells.tetrahedra[cell];
-                    if holds_face(corners) {
-                        let positions = self.positions(corners);
-                        return Some(embedding(
-                            corners,
-                            tetrahedron::coordinates(&positions, point)?,
-                        ));
-                    }
-                }
-                Some(cell) => {
-                    let corners = &self.cells.octahedra[cell];
-                    if holds_face(corners) {
-                        let place = |vertex| corners.iter().position(|corner| *corner == vertex);
-                        let local = face.map(|vertex| place(vertex).unwrap_or(0));
-                        let shape = Octahedron::new(self.positions(corners));
-                        return Some(embedding(corners, shape.coordinates_behind(local, point)?));
-                    }
-                }
+        let cell = self.cell_behind(nearest)?;
+        match cell.checked_sub(self.cells.tetrahedra.len()) {
+            None => {
+                let corners = &self.cells.tetrahedra[cell];
+                let positions = self.positions(corners);
+                Some(embedding(
+                    corners,
+                    tetrahedron::coordinates(&positions, point)?,
+                ))
+            }
+            Some(cell) => {
+                let corners = &self.cells.octahedra[cell];
+                let face = self.surface[nearest.triangle];
+                let place = |vertex| corners.iter().position(|corner| *corner == vertex);
+                let local = face.map(|vertex| place(vertex).unwrap_or(0));
+                let shape = Octahedron::new(self.positions(corners));
+                Some(embedding(corners, shape.coordinates_behind(local, point)?))
             }
         }
-        None
+    }
+
+    /// The cell whose face `nearest` lies on, as a place in [`Cells::corners`].
+    pub fn cell_behind(&self, nearest: &Nearest) -> Option<usize> {
+        let face = self.surface[nearest.triangle];
+        let middle = nearest.middle(face.map(|vertex| self.points[vertex as usize]));
+        let holds_face = |cell: &usize| {
+            let corners: &[u32] = match cell.checked_sub(self.cells.tetrahedra.len()) {
+                None => &self.cells.tetrahedra[*cell],
+                Some(octahedron) => &self.cells.octahedra[octahedron],
+            };
+            face.iter().all(|vertex| corners.contains(vertex))
+        };
+        // The cell's box holds its face, and so the middle of it.
+        let candidates = self.tree.locate_all_at_point(middle);
+        candidates
+            .map(|candidate| candidate.data)
+            .filter(holds_face)
+            .min()
     }
 
     /// The nearest point itself, as a weighted sum of its triangle's corners.

@@ -17,6 +17,7 @@ pub mod obj;
 pub mod obj_tags;
 pub mod off;
 pub mod ply;
+pub mod points;
 pub mod stl;
 pub mod tetgen;
 pub mod vtk;
