@@ -10,6 +10,7 @@
 //! - [`performance`] measures the apply beside what one would write instead.
 //! - [`random_bundle`] packs random tables in every format.
 //! - [`random_mesh`] and [`random_table`] draw the random cases, from a seed alone.
+//! - [`random_data`] draws solids of several materials: labels, crease surfaces, scalar channels.
 //! - [`equality`] runs core against the reference, [`compare`] says what differs, [`distance`]
 //!   measures how far both are from real numbers, [`snapshot`] keeps printed figures.
 //! - [`reference_box_spline`] is paper 2 written again in the same way; [`box_spline`] and
@@ -37,6 +38,7 @@ pub mod mixed_subject;
 pub mod performance;
 pub mod qemu;
 pub mod random_bundle;
+pub mod random_data;
 pub mod random_mesh;
 pub mod random_mixed;
 pub mod random_surface;

@@ -9,6 +9,7 @@ use super::kernel::{
     scaled,
 };
 use super::moved::{Moved, Updated};
+use super::scalars::{self, InPairs};
 use super::table::ApplyError;
 use crate::coord::{Coordinate, rounding_start, saturate};
 
@@ -236,6 +237,33 @@ impl<'a, C: Coordinate> CompactTable<'a, C> {
             return Err(ApplyError::MarksLength { needed, given });
         }
         self.run(0..self.rows(), displacements, out, Moved::Marked(moved))
+    }
+
+    /// Carries scalar channels from the control points to a range of rows by the weights that carry
+    /// displacements, and returns how many values were out of range and saturated.
+    ///
+    /// Values are 32-bit and are not made smaller: the result is that of
+    /// [`Table::apply_scalars`](super::Table::apply_scalars) with weights of 14 fraction bits. `values`
+    /// holds `D` channels for each control point, `out` as many for each row of the range.
+    ///
+    /// # Scaling and overflow
+    ///
+    /// Products and sums are 64-bit. A row's magnitudes add up to at most `2^15`, so its sum is at most
+    /// `2^46`, for any values. It is rounded once, as [`crate::coord`] says. A value that then does not
+    /// fit 32 bits saturates and is counted.
+    ///
+    /// # Errors
+    ///
+    /// An [`ApplyError`] if a length does not fit; nothing is then written.
+    pub fn apply_scalars<V: Coordinate, const D: usize>(
+        &self,
+        rows: Range<usize>,
+        values: &[[V; D]],
+        out: &mut [[V; D]],
+    ) -> Result<u32, ApplyError> {
+        let shape = (self.rest_cage.len(), self.rows());
+        let weights = InPairs(self.weights);
+        scalars::apply(self.groups, shape, weights, rows, values, out)
     }
 
     fn run(

@@ -1,5 +1,7 @@
 //! Groups: rows that share their control points.
 
+use core::ops::Range;
+
 /// The groups of a table and the control points that each of them names.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Groups<'a> {
@@ -7,6 +9,20 @@ pub(crate) struct Groups<'a> {
     pub groups: &'a [[u16; 2]],
     /// The control points of the first group, then of the second, and so on.
     pub indices: &'a [u16],
+}
+
+/// The wanted rows of one group.
+pub(super) struct Part<'a> {
+    /// The control points of the group.
+    pub indices: &'a [u16],
+    /// The place of the group's first weight among those of the table.
+    pub first_weight: usize,
+    /// Rows of the whole group.
+    pub rows: usize,
+    /// Rows of the group before the first that is wanted.
+    pub skipped: usize,
+    /// Rows of the group that are wanted.
+    pub count: usize,
 }
 
 /// Where a row lies.
@@ -44,5 +60,30 @@ impl<'a> Groups<'a> {
             weights_before = weights_before.wrapping_add(rows.wrapping_mul(taps));
         }
         None
+    }
+
+    /// The groups that have rows of a range, with what of them is wanted.
+    pub(super) fn parts(&self, rows: Range<usize>) -> impl Iterator<Item = Part<'a>> + use<'a> {
+        let mut wanted = rows.end.saturating_sub(rows.start);
+        let mut position = self.find(rows.start);
+        core::iter::from_fn(move || {
+            let position = position.as_mut().filter(|_| wanted != 0)?;
+            let (&[rows, taps], groups) = position.groups.split_first()?;
+            let (rows, taps) = (usize::from(rows), usize::from(taps));
+            let (indices, more_indices) = position.indices.split_at_checked(taps)?;
+            let skipped = core::mem::take(&mut position.first_row);
+            let part = Part {
+                indices,
+                first_weight: position.weights_before,
+                rows,
+                skipped,
+                count: rows.wrapping_sub(skipped).min(wanted),
+            };
+            wanted = wanted.wrapping_sub(part.count);
+            position.groups = groups;
+            position.indices = more_indices;
+            position.weights_before = part.first_weight.wrapping_add(rows.wrapping_mul(taps));
+            Some(part)
+        })
     }
 }

@@ -18,11 +18,18 @@
 //! `floor((residual + sum(w p)) / 2^30 + 1/2)` with the baked
 //! `residual = rest * 2^30 - sum(w p_rest)`: the same multiplications as the absolute form, from
 //! another start value.
+//!
+//! # Channels
+//!
+//! Whatever else the control points have, a number each, follows the same map:
+//! [`Table::apply_scalars`] and [`CompactTable::apply_scalars`] carry any number of scalar channels
+//! through the same rows, as the absolute form carries positions.
 
 mod compact;
 mod groups;
 mod kernel;
 mod moved;
+mod scalars;
 mod table;
 mod wide;
 

@@ -7,6 +7,7 @@ use core::ops::Range;
 use super::groups::Groups;
 use super::kernel::{Half, Start};
 use super::moved::{Moved, Updated};
+use super::scalars;
 use super::wide::{self, Weight};
 use crate::bundle::BundleError;
 use crate::coord::Coordinate;
@@ -119,6 +120,13 @@ pub enum ApplyError {
         /// Control points of the cage.
         needed: usize,
         /// Marks given.
+        given: usize,
+    },
+    /// There are more or fewer values of scalar channels than control points.
+    ValuesLength {
+        /// Control points of the cage.
+        needed: usize,
+        /// Control points that values were given for.
         given: usize,
     },
     /// The table has the absolute form only: it was baked without rest positions.
@@ -324,6 +332,40 @@ impl<'a, C: Coordinate> Table<'a, C> {
         .saturated)
     }
 
+    /// Carries scalar channels (a temperature, a density, texture coordinates) from the control points
+    /// to a range of rows by the weights that carry positions, and returns how many values were out
+    /// of range and saturated.
+    ///
+    /// `values` holds `D` channels for each control point, `out` as many for each row of the range. A
+    /// channel's format `V` is its own and need not be that of the coordinates; channels of several
+    /// formats go together as raw bits (`i32`). Channels have no rest values: the result is the weighted
+    /// sum itself, as [`Table::apply_absolute`] gives it of positions. As a row's weights add up to
+    /// exactly one, a channel that is the same at all control points is the same at all rows, to the
+    /// bit.
+    ///
+    /// # Scaling and overflow
+    ///
+    /// Values are 32-bit in any format; weights have `q` = 30 or 14 fraction bits; products and sums are
+    /// 64-bit. A row's magnitudes add up to at most 2, so its sum is at most `2^32 * 2^q`, with the half
+    /// of the rounding rule at most `2^62 + 2^29`, for any values. It is rounded once, as
+    /// [`crate::coord`] says. A value that then does not fit 32 bits saturates and is counted.
+    ///
+    /// # Errors
+    ///
+    /// An [`ApplyError`] if a length does not fit; nothing is then written.
+    pub fn apply_scalars<V: Coordinate, const D: usize>(
+        &self,
+        rows: Range<usize>,
+        values: &[[V; D]],
+        out: &mut [[V; D]],
+    ) -> Result<u32, ApplyError> {
+        let shape = (self.inputs, self.rows);
+        match self.weights {
+            Weights::Q30(weights) => scalars::apply(self.groups, shape, weights, rows, values, out),
+            Weights::Q14(weights) => scalars::apply(self.groups, shape, weights, rows, values, out),
+        }
+    }
+
     fn run<S: Start>(
         &self,
         starts: &[S],
@@ -423,6 +465,12 @@ impl fmt::Display for ApplyError {
                 write!(
                     f,
                     "{given} control points are marked or not, the table's cage has {needed}"
+                )
+            }
+            Self::ValuesLength { needed, given } => {
+                write!(
+                    f,
+                    "{given} control points have values, the table's cage has {needed}"
                 )
             }
             Self::NoRestPositions => f.write_str(

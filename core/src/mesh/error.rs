@@ -98,6 +98,8 @@ pub enum Arena {
     SurfaceQuads,
     /// Distortions of the old vertices.
     Distortions,
+    /// Labels of refined cells.
+    Labels,
 }
 
 /// Why a mesh cannot be refined as it is, or where it is to go.
@@ -293,6 +295,7 @@ impl fmt::Display for Arena {
             Self::Neighbours => "neighbours",
             Self::FanStarts => "fan starts",
             Self::Distortions => "distortions",
+            Self::Labels => "labels",
         })
     }
 }

@@ -50,12 +50,15 @@ fn apply(bundle: &Bundle<'_>, pose: &Points, out: &mut Points) -> Option<u32> {
     black_box(&out);
     let absolute = table.apply_absolute(rows, pose, out).ok()?;
     black_box(&out);
+    let scalars = table.apply_scalars(black_box(0..POINTS), pose, out).ok()?;
+    black_box(&out);
     let updated = table
         .apply_moved(&black_box([true; POINTS]), pose, out)
         .ok()?;
     Some(
         displaced
             .wrapping_add(absolute)
+            .wrapping_add(scalars)
             .wrapping_add(updated.saturated),
     )
 }
@@ -70,9 +73,15 @@ fn apply_compact(bundle: &Bundle<'_>, pose: &Points, out: &mut Points) -> Option
         .apply(black_box(0..POINTS), &displacements, out)
         .ok()?;
     black_box(&out);
+    let scalars = table.apply_scalars(black_box(0..POINTS), pose, out).ok()?;
+    black_box(&out);
     let moved = black_box([true; POINTS]);
     let updated = table.apply_moved(&moved, &displacements, out).ok()?;
-    Some(applied.wrapping_add(updated.saturated))
+    Some(
+        applied
+            .wrapping_add(scalars)
+            .wrapping_add(updated.saturated),
+    )
 }
 
 /// Never linked, as nothing panics; the language wants it to be there.

@@ -42,6 +42,7 @@
 mod arithmetic;
 mod classify;
 pub mod exact;
+mod labels;
 mod loop_weight;
 mod masks;
 mod refine;
@@ -51,11 +52,14 @@ mod split;
 mod surface;
 mod table;
 
+pub use labels::{parents, split_labels};
 pub use loop_weight::{LoopWeight, WEIGHT_UNIT};
 pub use masks::{MaskEntry, level_masks, linear_masks};
 pub use refine::{Refined, RefinedReal, refine, refine_real};
 pub use smooth::{OCTAHEDRON_TIMES_48, TETRAHEDRON_TIMES_48};
 pub use solid::{Boundary, CELLS_AT_A_VERTEX_MAXIMUM, Solid, SolidError};
 pub use split::{Counts, LinearSplit, split};
-pub use surface::{BoundarySurface, boundary_triangles, split_triangles, surface_triangles};
+pub use surface::{
+    BoundarySurface, boundary_triangles, cell_faces, split_triangles, surface_triangles,
+};
 pub use table::{Applied, Table, TableError, apply_absolute, apply_displacement};

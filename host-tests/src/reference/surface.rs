@@ -18,8 +18,9 @@ pub const OCTAHEDRON_FACES: [[usize; 3]; 8] = [
     [3, 4, 5],
 ];
 
-/// All triangles of all cells, as oriented by their cells; shared ones occur more than once.
-pub(super) fn cell_faces(solid: &Solid) -> Vec<[u32; 3]> {
+/// All triangles of all cells, as oriented by their cells, four of each tetrahedron and then eight of
+/// each octahedron; shared ones occur more than once.
+pub fn cell_faces(solid: &Solid) -> Vec<[u32; 3]> {
     let mut faces = Vec::with_capacity(4 * solid.tetrahedra.len() + 8 * solid.octahedra.len());
     for cell in &solid.tetrahedra {
         faces.extend(TETRAHEDRON_FACES.map(|face| face.map(|place| cell[place])));
