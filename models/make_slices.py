@@ -135,8 +135,37 @@ def panel():
             ]
 
 
+def skirt():
+    """A drum of two layers with a skirt: a ring of triangles that hangs on its middle and that no
+    cell has. The channel is the height."""
+    sides = 10
+    base = [(0.0, 0.0)]
+    base += [
+        (math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides)) for k in range(sides)
+    ]
+    triangles = [(0, 1 + k, 1 + (k + 1) % sides) for k in range(sides)]
+    points, cells = stack(base, triangles, [0.0, 0.6, 1.2])
+    middle = len(base) + 1
+    sheets, inner = [], [middle + k for k in range(sides)]
+    for radius, height in ((1.5, 0.6), (2.0, 1.1)):
+        outer = [len(points) + k for k in range(sides)]
+        points += [
+            (radius * math.cos(2 * math.pi * k / sides), radius * math.sin(2 * math.pi * k / sides), height)
+            for k in range(sides)
+        ]
+        for k in range(sides):
+            n = (k + 1) % sides
+            sheets += [(inner[k], outer[k], outer[n]), (inner[k], outer[n], inner[n])]
+        inner = outer
+    write_mesh("skirt.msh", points, cells)
+    lines = ["sheet " + " ".join(map(str, sheet)) for sheet in sheets]
+    (FOLDER / "skirt-features.txt").write_text("\n".join(lines) + "\n")
+    write_channel("skirt-height.txt", [p[2] for p in points])
+
+
 if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
+    skirt()
     lattice_tetrahedron()
     two_tetrahedra()
     cylinder()

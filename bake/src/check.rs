@@ -141,10 +141,11 @@ pub(crate) fn faces(mesh: &SolidMesh) -> impl Iterator<Item = [Vertex; 3]> {
     of_tetrahedra.chain(of_octahedra)
 }
 
-/// Vertices that no cell uses: control points that move nothing.
+/// Vertices that no cell and no sheet uses: control points that move nothing.
 pub fn unused_vertices(mesh: &SolidMesh) -> Vec<usize> {
     let mut used = vec![false; mesh.points.len()];
-    for vertex in mesh.cells.corners().flatten() {
+    let sheets = mesh.features.sheets.iter().flatten();
+    for vertex in mesh.cells.corners().flatten().chain(sheets) {
         used[*vertex as usize] = true;
     }
     used.iter()

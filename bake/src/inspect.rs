@@ -69,6 +69,8 @@ pub struct Inspection {
     pub corners: usize,
     /// Faces of crease surfaces inside.
     pub crease_faces: usize,
+    /// Triangles of sheets.
+    pub sheets: usize,
     /// How many cells have each label; empty if cells have none.
     pub labels: BTreeMap<i32, usize>,
     /// Names of the scalar channels.
@@ -191,7 +193,7 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         tetrahedra: mesh.cells.tetrahedra.len(),
         octahedra: mesh.cells.octahedra.len(),
         edges: counts.edges,
-        faces: counts.faces,
+        faces: counts.faces - level.sheets().len(),
         bounds: bounds(&mesh.points),
         interior_edges_of_valence_3: of_three_cells(&interior),
         interior_edge_valences: count_each(interior.into_iter().map(|(_, cells)| *cells)),
@@ -207,6 +209,7 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         crease_vertex_valences: edge_valences(mesh.features.creases.iter()),
         corners: mesh.features.corners.len(),
         crease_faces: level.crease_faces().len(),
+        sheets: level.sheets().len(),
         labels: count_each(mesh.labels.iter()),
         channels: mesh
             .channels

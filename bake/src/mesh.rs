@@ -3,6 +3,8 @@
 //! Readers fill it, `check` judges it, `refine` hands it to core. A new cell shape is one more
 //! field of [`Cells`] and of [`Labels`].
 
+use std::collections::HashSet;
+
 /// Index of a vertex, counted from 0 in file order.
 pub type Vertex = u32;
 
@@ -56,6 +58,9 @@ pub struct Features {
     /// Faces of cells that make up crease surfaces inside the solid, each with ascending vertices,
     /// ascending, none twice. A face on the boundary changes nothing.
     pub faces: Vec<[Vertex; 3]>,
+    /// Triangles of no cell: sheets that hang on the solid, or stand alone, and follow the
+    /// boundary's rule. Corners and triangles in file order, none twice.
+    pub sheets: Vec<[Vertex; 3]>,
 }
 
 /// What cells are made of or belong to: a number for each, or none at all.
@@ -125,6 +130,12 @@ impl Features {
         }
         self.faces.sort_unstable();
         self.faces.dedup();
+        let mut seen = HashSet::new();
+        self.sheets.retain(|sheet| {
+            let mut corners = *sheet;
+            corners.sort_unstable();
+            seen.insert(corners)
+        });
     }
 }
 
@@ -151,6 +162,7 @@ impl SolidMesh {
         self.features.creases.extend(more.creases);
         self.features.corners.extend(more.corners);
         self.features.faces.extend(more.faces);
+        self.features.sheets.extend(more.sheets);
         self.features.normalise();
     }
 }

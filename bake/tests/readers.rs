@@ -52,11 +52,11 @@ fn gmsh_2_and_4_give_the_same_mesh() {
             [0.5, 0.5, -2.0],
         ],
         cells: Cells { tetrahedra: vec![[0, 1, 2, 3], [0, 2, 1, 4]], octahedra: vec![] },
-        features: Features { creases: vec![[0, 1]], corners: vec![3], faces: vec![] },
+        features: Features { creases: vec![[0, 1]], corners: vec![3], faces: vec![], sheets: vec![] },
         labels: Labels { tetrahedra: vec![9, 9], octahedra: vec![] },
         channels: vec![],
         notes: vec![
-            "left out: 1 line, 1 triangle (in no physical group whose name starts with \"crease\" for curves and surfaces or \"corner\" for points)".to_owned(),
+            "left out: 1 line, 1 triangle (in no physical group whose name starts with \"crease\" for curves and surfaces, \"sheet\" for surfaces or \"corner\" for points)".to_owned(),
         ],
     };
     assert_eq!(gmsh::read(TWO_TETRAHEDRA_2.as_bytes()).unwrap(), expected);
@@ -435,14 +435,15 @@ fn vtu_errors_name_the_line_and_what_to_do() {
 
 #[test]
 fn features_are_read_line_by_line() {
-    let text = "# rim\ncrease 3 1\n\n  corner 2 # tip\ncrease 1 3\ncorner 0\ncrease-face 3 1 2\n";
+    let text = "# rim\ncrease 3 1\n\n  corner 2 # tip\ncrease 1 3\ncorner 0\ncrease-face 3 1 2\nsheet 3 0 1\nsheet 1 0 3\n";
     let features = features::read(text.as_bytes(), 4).unwrap();
     assert_eq!(
         features,
         Features {
             creases: vec![[1, 3]],
             corners: vec![0, 2],
-            faces: vec![[1, 2, 3]]
+            faces: vec![[1, 2, 3]],
+            sheets: vec![[3, 0, 1]],
         }
     );
     for (text, message) in [
@@ -457,7 +458,7 @@ fn features_are_read_line_by_line() {
         ("corner x", "line 1: expected a vertex, found \"x\""),
         (
             "corner 1 2",
-            "line 1: expected `crease A B`, `crease-face A B C` or `corner A`, found \"corner\" with 2 words after it",
+            "line 1: expected `crease A B`, `crease-face A B C`, `sheet A B C` or `corner A`, found \"corner\" with 2 words after it",
         ),
         (
             "crease-face 0 1 0",

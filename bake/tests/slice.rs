@@ -47,6 +47,56 @@ fn a_constant_stays_constant() {
     }
 }
 
+/// One table carries a channel through time. Against the refinement of one moment in real numbers: a
+/// row has at most 64 weights here, each within 2^-31 of its real one, values are at most 1 and end in
+/// 29 bits, so the two differ by at most 64 * 2^-31 + 2 * 2^-30 < 2^-24.
+#[test]
+fn moments_are_carried_by_a_table() {
+    const BOUND: f64 = 1.0 / 16_777_216.0;
+    let folder = Folder::new();
+    let draw = |moments: &[u32]| -> serde_json::Value {
+        let mut command = octruss();
+        command
+            .args(["slice", "--levels", "1", "--size", "200", "--json"])
+            .args(["--scheme", "box-spline", "--plane", "0,0,1,0.125"])
+            .args(["--line", "0.02,1.1,0.125,3.98,1.1,0.125", "-o"])
+            .arg(folder.path("out.png"))
+            .arg(model("slices/panel.msh"));
+        for moment in moments {
+            let file = model(&format!("slices/panel-tension-{moment}.txt"));
+            command.arg("--channel").arg(file);
+        }
+        serde_json::from_slice(&command.output().unwrap().stdout).unwrap()
+    };
+    let all = draw(&[0, 1, 2, 3]);
+    // A PNG of two rows: three moments, then the fourth and the plot.
+    assert_eq!(folder.read("out.png")[16..24], [0, 0, 2, 88, 0, 0, 1, 144]);
+    let moments = all["moments"].as_array().unwrap();
+    assert_eq!(moments.len(), 4);
+    for (moment, carried) in (0..).zip(moments) {
+        assert_eq!(carried["channel"], format!("panel-tension-{moment}"));
+        assert_eq!(carried["saturated_values"], 0);
+        let alone = draw(&[moment]);
+        for end in ["least", "greatest"] {
+            let gap = carried[end].as_f64().unwrap() - alone[end].as_f64().unwrap();
+            assert!(gap.abs() <= BOUND, "{end} at {moment}: {gap}");
+        }
+    }
+    let last = draw(&[3]);
+    let line = |figures: &serde_json::Value| -> Vec<Option<f64>> {
+        let values = figures["line"]["refined"].as_array().unwrap();
+        values.iter().map(serde_json::Value::as_f64).collect()
+    };
+    let (carried, alone) = (line(&all), line(&last));
+    assert_eq!(carried.len(), 257);
+    for pair in carried.into_iter().zip(alone) {
+        match pair {
+            (Some(carried), Some(alone)) => assert!((carried - alone).abs() <= BOUND),
+            (carried, alone) => assert_eq!(carried, alone),
+        }
+    }
+}
+
 #[test]
 fn mistakes_are_answered() {
     let folder = Folder::new();

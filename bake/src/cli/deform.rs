@@ -296,7 +296,7 @@ fn draw(
         up: arguments.up.unwrap_or(default.up),
     };
     let cage_edges = match cage {
-        Some(cage) => edges_of(Level::new(&cage)?.boundary()),
+        Some(cage) => edges_of(&Level::new(&cage)?.skin()),
         None => Vec::new(),
     };
     let scene = Scene {

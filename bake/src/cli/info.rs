@@ -131,6 +131,9 @@ fn features_and_volumes(text: &mut String, inspection: &Inspection) {
     }
     line("corners", inspection.corners.to_string());
     line("crease faces inside", inspection.crease_faces.to_string());
+    if inspection.sheets > 0 {
+        line("sheets", format!("{} triangles", inspection.sheets));
+    }
     let labels: Vec<String> = inspection
         .labels
         .iter()

@@ -79,6 +79,7 @@ struct Figures {
     tetrahedra: usize,
     octahedra: usize,
     boundary_triangles: usize,
+    sheet_triangles: usize,
     cells_without_volume: usize,
     /// Of `--numeric fixed`.
     fraction_bits: Option<u32>,
@@ -117,7 +118,7 @@ fn refine_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         if is_solid {
             write::solid(&extension, &refined, out)
         } else {
-            write::boundary(&extension, &refined.points, level.boundary(), out)
+            write::boundary(&extension, &refined.points, &level.skin(), out)
         }
     })?;
     if figures.cells_without_volume > 0 {
@@ -185,6 +186,7 @@ fn refine(
             creases: level.creases.clone(),
             corners: level.corners.clone(),
             faces: level.crease_faces().to_vec(),
+            sheets: level.sheets().to_vec(),
         },
         labels,
         channels: channels.values(),
@@ -197,6 +199,7 @@ fn refine(
         tetrahedra: level.cells.tetrahedra.len(),
         octahedra: level.cells.octahedra.len(),
         boundary_triangles: level.boundary().len(),
+        sheet_triangles: level.sheets().len(),
         cells_without_volume: volumes.inverted.len() + volumes.flat.len() + volumes.folded.len(),
         fraction_bits: is_fixed.then_some(format.fraction_bits),
         saturated_coordinates: saturated,
@@ -209,6 +212,9 @@ fn words(figures: &Figures) -> String {
         "{} vertices, {} tetrahedra, {} octahedra, {} boundary triangles",
         figures.vertices, figures.tetrahedra, figures.octahedra, figures.boundary_triangles
     );
+    if figures.sheet_triangles > 0 {
+        text += &format!(", {} triangles of sheets", figures.sheet_triangles);
+    }
     if let Some(bits) = figures.fraction_bits {
         text += &format!(", {bits} fraction bits");
     }

@@ -125,6 +125,7 @@ fn read_input(arguments: &Arguments) -> Result<Input> {
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
     let level = Level::new(&mesh).map_err(of_mesh)?;
+    level.require_bare_boundary().map_err(of_mesh)?;
     let faces = level.boundary().iter().map(|face| face.to_vec());
     let faces = faces.collect::<Vec<_>>();
     Ok(Input {

@@ -1,8 +1,9 @@
 //! Feature files: creases, crease faces and corners for any mesh, one a line.
 //!
 //! `crease A B` makes the edge between two vertices a crease, `crease-face A B C` makes a face of a
-//! cell part of a crease surface inside the solid, `corner A` keeps a vertex in its place; vertices are counted from 0 in the mesh's file order. Empty lines and everything after
-//! `#` are skipped.
+//! cell part of a crease surface inside the solid, `corner A` keeps a vertex in its place, `sheet A B C`
+//! adds a triangle that no cell has; vertices are counted from 0 in the mesh's file order. Empty
+//! lines and everything after `#` are skipped.
 
 use super::words::shown;
 use crate::error::{Error, Result};
@@ -32,11 +33,16 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
             }
             ["corner", a] => features.corners.push(vertex(a)?),
             ["crease-face", a, b, c] => {
-                let face = [vertex(a)?, vertex(b)?, vertex(c)?];
-                if face[0] == face[1] || face[1] == face[2] || face[2] == face[0] {
-                    return Err(located(Error::new("the crease face names a vertex twice")));
-                }
-                features.faces.push(face);
+                features.faces.push(
+                    triangle([vertex(a)?, vertex(b)?, vertex(c)?], "crease face")
+                        .map_err(located)?,
+                );
+            }
+            ["sheet", a, b, c] => {
+                features.sheets.push(
+                    triangle([vertex(a)?, vertex(b)?, vertex(c)?], "sheet's triangle")
+                        .map_err(located)?,
+                );
             }
             ["crease-face", _, _, _, _] => {
                 return Err(located(
@@ -46,7 +52,7 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
             }
             [word, ..] => {
                 return Err(located(Error::new(format!(
-                    "expected `crease A B`, `crease-face A B C` or `corner A`, found \"{}\" with {} words after it",
+                    "expected `crease A B`, `crease-face A B C`, `sheet A B C` or `corner A`, found \"{}\" with {} words after it",
                     shown(word),
                     words.len() - 1
                 ))));
@@ -55,6 +61,14 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
     }
     features.normalise();
     Ok(features)
+}
+
+fn triangle(corners: [Vertex; 3], what: &str) -> Result<[Vertex; 3]> {
+    let [a, b, c] = corners;
+    if a == b || b == c || c == a {
+        return Err(Error::new(format!("the {what} names a vertex twice")));
+    }
+    Ok(corners)
 }
 
 fn vertex(word: &str, vertices: usize) -> Result<Vertex> {

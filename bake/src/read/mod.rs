@@ -97,9 +97,9 @@ pub fn surface_with_features(file: &Path, features: Option<&Path>) -> Result<Sur
     if let Some(features) = features {
         let more = features::read(&bytes(features)?, mesh.points.len())
             .map_err(|error| error.in_file(features))?;
-        if !more.faces.is_empty() {
+        if !more.faces.is_empty() || !more.sheets.is_empty() {
             return Err(Error::new(
-                "crease-face is for solids; a surface has crease edges and corners",
+                "crease-face and sheet are for solids; a surface has crease edges and corners",
             )
             .in_file(features));
         }

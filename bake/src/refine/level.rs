@@ -13,7 +13,7 @@ use octruss::solid::tet_oct::{
     Boundary, PointBuffers, VertexState, refine_points, split, split_counts,
 };
 use octruss::surface::LoopWeights;
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 /// Connectivity of a solid at one level of refinement, owned.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -22,11 +22,13 @@ pub struct Level {
     pub vertex_count: u32,
     /// The cells.
     pub cells: Cells,
-    /// Boundary triangles, counter-clockwise from outside, and behind them those of crease surfaces
-    /// inside.
+    /// Boundary triangles, counter-clockwise from outside; behind them those of crease surfaces
+    /// inside, and last those of sheets.
     pub surface: Vec<[u32; 3]>,
     /// How many triangles of `surface` are on the boundary.
     pub boundary_count: usize,
+    /// How many triangles behind those are of crease surfaces.
+    pub crease_face_count: usize,
     /// Crease edges.
     pub creases: Vec<[u32; 2]>,
     /// Corners.
@@ -66,6 +68,7 @@ impl Level {
             cells: mesh.cells.clone(),
             surface: Vec::new(),
             boundary_count: 0,
+            crease_face_count: 0,
             creases: mesh.features.creases.clone(),
             corners: mesh.features.corners.clone(),
             interior: Interior::TetOct,
@@ -78,7 +81,14 @@ impl Level {
             .to_vec();
         level.boundary_count = level.surface.len();
         let inside = inside_faces(mesh, &level.surface)?;
+        level.crease_face_count = inside.len();
         level.surface.extend(inside);
+        require_no_cell_has(mesh)?;
+        level.surface.extend(&mesh.features.sheets);
+        // Without a rule of their own the open edges of a sheet would shrink.
+        level.creases.extend(level.open_edges());
+        level.creases.sort_unstable();
+        level.creases.dedup();
         // Checks that every crease is an edge of a cell before any work is done.
         EdgeMemory::new(&level.solid())?.number(&level.solid())?;
         Ok(level)
@@ -91,7 +101,40 @@ impl Level {
 
     /// The triangles of crease surfaces inside.
     pub fn crease_faces(&self) -> &[[u32; 3]] {
-        &self.surface[self.boundary_count..]
+        &self.surface[self.boundary_count..][..self.crease_face_count]
+    }
+
+    /// The triangles of sheets, which no cell has.
+    pub fn sheets(&self) -> &[[u32; 3]] {
+        &self.surface[self.boundary_count + self.crease_face_count..]
+    }
+
+    /// What is seen from outside: the boundary, then the sheets.
+    pub fn skin(&self) -> Vec<[u32; 3]> {
+        [self.boundary(), self.sheets()].concat()
+    }
+
+    /// Error if sheets hang on the boundary, whose shape then is not its own business alone.
+    pub fn require_bare_boundary(&self) -> Result<()> {
+        let boundary: HashSet<u32> = self.boundary().iter().flatten().copied().collect();
+        let mut corners = self.sheets().iter().flatten();
+        match corners.find(|corner| boundary.contains(corner)) {
+            Some(corner) => Err(Error::new(format!(
+                "a sheet hangs on the boundary at vertex {corner} (counted from 0): the volume that such a boundary encloses has no form"
+            ))
+            .advise("leave the sheets out")),
+            None => Ok(()),
+        }
+    }
+
+    /// Edges of a sheet that no other triangle of a surface has, ends ascending.
+    fn open_edges(&self) -> Vec<[u32; 2]> {
+        let mut uses: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+        for edge in self.surface.iter().flat_map(edges_of) {
+            *uses.entry(edge).or_default() += 1;
+        }
+        let edges = self.sheets().iter().flat_map(edges_of);
+        edges.filter(|edge| uses.get(edge) == Some(&1)).collect()
     }
 
     /// The view that core takes.
@@ -136,7 +179,8 @@ impl Level {
         Ok(Counts {
             vertices: self.vertex_count as usize,
             edges,
-            faces: (of_cells + self.boundary_count) / 2,
+            // Those of sheets split as those of cells do.
+            faces: (of_cells + self.boundary_count) / 2 + self.sheets().len(),
             tetrahedra: self.cells.tetrahedra.len(),
             octahedra: self.cells.octahedra.len(),
             surface: self.surface.len(),
@@ -178,6 +222,28 @@ fn inside_faces(mesh: &SolidMesh, boundary: &[[Vertex; 3]]) -> Result<Vec<[Verte
         .iter()
         .filter(|face| !on_boundary.contains(&sorted(**face)));
     Ok(inside.copied().collect())
+}
+
+/// Error if a triangle of a sheet is a face of a cell.
+fn require_no_cell_has(mesh: &SolidMesh) -> Result<()> {
+    let sorted = |mut face: [Vertex; 3]| {
+        face.sort_unstable();
+        face
+    };
+    let sheets: HashSet<[Vertex; 3]> = mesh.features.sheets.iter().copied().map(sorted).collect();
+    let mut faces = crate::check::faces(mesh).map(sorted);
+    match faces.find(|face| sheets.contains(face)) {
+        Some([a, b, c]) => Err(Error::new(format!(
+            "the sheet's triangle of vertices {a}, {b} and {c} (counted from 0) is a face of a cell"
+        ))
+        .advise("sheets hang on a solid by edges and vertices; inside it or on its boundary a surface is a crease surface")),
+        None => Ok(()),
+    }
+}
+
+/// The edges of a triangle, ends ascending.
+fn edges_of(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
 }
 
 /// Memory for the numbering of one split.
@@ -231,6 +297,7 @@ impl<'a> Refinement<'a> {
             },
             surface: vec![[0; 3]; counts.surface],
             boundary_count: FACE_CHILDREN * self.from.boundary_count,
+            crease_face_count: FACE_CHILDREN * self.from.crease_face_count,
             creases: vec![[0; 2]; counts.creases],
             corners: vec![0; counts.corners],
             interior: match &self.from.interior {
@@ -259,9 +326,10 @@ impl<'a> Refinement<'a> {
     ) -> Result<Vec<B::Point>> {
         let mut solid = self.from.solid();
         let mut boundary = self.boundary;
-        if boundary == Boundary::Interior && !self.from.crease_faces().is_empty() {
-            // The boundary has no rule of its own, the crease surfaces keep theirs.
-            solid.surface = self.from.crease_faces();
+        let inside_and_sheets = &self.from.surface[self.from.boundary_count..];
+        if boundary == Boundary::Interior && !inside_and_sheets.is_empty() {
+            // The boundary has no rule of its own, crease surfaces and sheets keep theirs.
+            solid.surface = inside_and_sheets;
             boundary = Boundary::Surface(LoopWeights::Loop);
         }
         let numbering = self.memory.number(&solid)?;

@@ -11,15 +11,24 @@ use tiny_skia::{IntSize, Pixmap};
 
 /// What is drawn.
 pub struct Picture<'a> {
-    /// Values on a plane.
-    pub cut: &'a Cut,
-    /// How many lines of equal value.
-    pub isolines: usize,
-    /// Values along a line, if there is one.
-    pub profile: Option<Profile>,
+    /// The panels, row by row from the upper left.
+    pub panels: Vec<Panel<'a>>,
     /// Width and height of a panel in pixels.
     pub size: u32,
 }
+
+/// One part of a picture.
+pub enum Panel<'a> {
+    /// Values on a plane as colours, with a title.
+    Density(String, &'a Cut),
+    /// So many lines of equal value on a plane.
+    Isolines(usize, &'a Cut),
+    /// Values along a line.
+    Plot(Profile),
+}
+
+/// Panels side by side before the next row begins.
+const MOST_COLUMNS: usize = 3;
 
 /// Values along a segment.
 pub struct Profile {
@@ -41,20 +50,22 @@ type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 /// # Errors
 /// If no point of the cut lies inside the solid, or the drawing fails.
 pub fn draw(picture: &Picture<'_>) -> Result<Vec<u8>> {
-    let Some(range) = picture.cut.range() else {
-        return Err(Error::new(
-            "the plane touches the refined solid, but no grid point lies inside",
-        )
-        .advise("move the plane into the solid"));
-    };
+    let range = range(&picture.panels)?;
     // The only font: no font of the system is looked for.
     plotters::style::register_font("sans-serif", FontStyle::Normal, UBUNTU_LIGHT)
         .map_err(|_| Error::new("the built-in font cannot be used"))?;
-    let panels = 2 + u32::from(picture.profile.is_some());
-    let (width, height) = (picture.size * panels, picture.size);
+    let columns = picture.panels.len().clamp(1, MOST_COLUMNS);
+    let rows = picture.panels.len().div_ceil(columns);
+    let [width, height] = [columns, rows].map(|panels| picture.size * panels as u32);
     let mut pixels = vec![255; width as usize * height as usize * 3];
-    paint(picture, range, panels, &mut pixels, (width, height))
-        .map_err(|error| Error::new(format!("cannot be drawn: {error}")))?;
+    paint(
+        picture,
+        range,
+        [rows, columns],
+        &mut pixels,
+        (width, height),
+    )
+    .map_err(|error| Error::new(format!("cannot be drawn: {error}")))?;
     let opaque: Vec<u8> = pixels
         .chunks_exact(3)
         .flat_map(|rgb| [rgb[0], rgb[1], rgb[2], u8::MAX])
@@ -66,22 +77,37 @@ pub fn draw(picture: &Picture<'_>) -> Result<Vec<u8>> {
         .map_err(|error| Error::new(format!("cannot be encoded as PNG: {error}")))
 }
 
+/// The least and the greatest value on all planes.
+fn range(panels: &[Panel<'_>]) -> Result<[f64; 2]> {
+    let ranges = panels.iter().filter_map(|panel| match panel {
+        Panel::Density(_, cut) | Panel::Isolines(_, cut) => cut.range(),
+        Panel::Plot(_) => None,
+    });
+    let both = |[low, high]: [f64; 2], [a, b]: [f64; 2]| [low.min(a), high.max(b)];
+    ranges.reduce(both).ok_or_else(|| {
+        Error::new("the plane touches the refined solid, but no grid point lies inside")
+            .advise("move the plane into the solid")
+    })
+}
+
 type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
 
 fn paint(
     picture: &Picture<'_>,
     range: [f64; 2],
-    panels: u32,
+    [rows, columns]: [usize; 2],
     pixels: &mut [u8],
     size: (u32, u32),
 ) -> Drawn {
     let root = BitMapBackend::with_buffer(pixels, size).into_drawing_area();
     root.fill(&WHITE)?;
-    let parts = root.split_evenly((1, panels as usize));
-    density(picture.cut, range, &parts[0])?;
-    isolines(picture, range, &parts[1])?;
-    if let (Some(profile), Some(part)) = (&picture.profile, parts.get(2)) {
-        plot(profile, part)?;
+    let parts = root.split_evenly((rows, columns));
+    for (panel, part) in picture.panels.iter().zip(&parts) {
+        match panel {
+            Panel::Density(title, cut) => density(title, cut, range, part)?,
+            Panel::Isolines(count, cut) => isolines(*count, cut, range, part)?,
+            Panel::Plot(profile) => plot(profile, part)?,
+        }
     }
     root.present()?;
     Ok(())
@@ -96,14 +122,14 @@ fn fraction(value: f64, [low, high]: [f64; 2]) -> f64 {
     }
 }
 
-fn caption(range: [f64; 2]) -> String {
-    format!("{:.4} (dark) to {:.4} (bright)", range[0], range[1])
+fn caption(title: &str, [low, high]: [f64; 2]) -> String {
+    format!("{title}{low:.4} (dark) to {high:.4} (bright)")
 }
 
-fn density(cut: &Cut, range: [f64; 2], area: &Area<'_>) -> Drawn {
+fn density(title: &str, cut: &Cut, range: [f64; 2], area: &Area<'_>) -> Drawn {
     let [u, v] = cut.start;
     let mut chart = ChartBuilder::on(area)
-        .caption(caption(range), ("sans-serif", 18))
+        .caption(caption(title, range), ("sans-serif", 18))
         .margin(12)
         .x_label_area_size(36)
         .y_label_area_size(52)
@@ -129,17 +155,22 @@ fn density(cut: &Cut, range: [f64; 2], area: &Area<'_>) -> Drawn {
             }
         }
     }
+    for segment in cut.sheets() {
+        let colour = ViridisRGB.get_color(fraction(segment.value, range));
+        chart.draw_series(std::iter::once(path(segment.ends, colour.stroke_width(5))))?;
+    }
     Ok(())
 }
 
-fn isolines(picture: &Picture<'_>, range: [f64; 2], area: &Area<'_>) -> Drawn {
-    let cut = picture.cut;
+/// A line from one place of the plane to another.
+fn path([from, to]: [[f64; 2]; 2], style: ShapeStyle) -> PathElement<(f64, f64)> {
+    PathElement::new([(from[0], from[1]), (to[0], to[1])], style)
+}
+
+fn isolines(count: usize, cut: &Cut, range: [f64; 2], area: &Area<'_>) -> Drawn {
     let [u, v] = cut.start;
     let mut chart = ChartBuilder::on(area)
-        .caption(
-            format!("{} lines of equal value", picture.isolines),
-            ("sans-serif", 18),
-        )
+        .caption(format!("{count} lines of equal value"), ("sans-serif", 18))
         .margin(12)
         .x_label_area_size(36)
         .y_label_area_size(52)
@@ -150,15 +181,16 @@ fn isolines(picture: &Picture<'_>, range: [f64; 2], area: &Area<'_>) -> Drawn {
         .x_desc(cut.plane.names[0])
         .y_desc(cut.plane.names[1])
         .draw()?;
-    for line in 1..=picture.isolines {
-        let part = line as f64 / (picture.isolines + 1) as f64;
+    for line in 1..=count {
+        let part = line as f64 / (count + 1) as f64;
         let level = range[0] + part * (range[1] - range[0]);
         let colour = ViridisRGB.get_color(part * 0.9);
-        for [from, to] in isoline(cut, level) {
-            let path =
-                PathElement::new([(from[0], from[1]), (to[0], to[1])], colour.stroke_width(2));
-            chart.draw_series(std::iter::once(path))?;
+        for ends in isoline(cut, level) {
+            chart.draw_series(std::iter::once(path(ends, colour.stroke_width(2))))?;
         }
+    }
+    for segment in cut.sheets() {
+        chart.draw_series(std::iter::once(path(segment.ends, BLACK.stroke_width(2))))?;
     }
     Ok(())
 }

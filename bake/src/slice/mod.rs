@@ -6,8 +6,10 @@
 
 mod draw;
 mod isolines;
+mod over_time;
 
-pub use draw::{Picture, Profile, draw};
+pub use draw::{Panel, Picture, Profile, draw};
+pub use over_time::{Moment, Places, over_time};
 
 use crate::error::{Error, Result};
 use crate::geometry::bounds;
@@ -117,14 +119,7 @@ impl Field {
     /// # Errors
     /// If there are more or fewer values than vertices.
     pub fn new(mesh: &SolidMesh, level: Level, values: Vec<f64>) -> Result<Self> {
-        if values.len() != mesh.points.len() {
-            return Err(Error::new(format!(
-                "there are {} values, but the mesh has {} vertices",
-                values.len(),
-                mesh.points.len()
-            ))
-            .advise("give one value for each vertex, in file order"));
-        }
+        require_length(&values, mesh.points.len())?;
         Ok(Self {
             level,
             points: mesh.points.clone(),
@@ -192,6 +187,10 @@ impl Field {
                 [u, v, 0.0]
             })
             .collect();
+        let sheets = self.cut_sheets(plane);
+        let of_sheets = sheets.iter().flat_map(|segment| segment.ends);
+        let of_sheets = of_sheets.map(|[u, v]| [u, v, 0.0]);
+        let places: Vec<Point> = places.into_iter().chain(of_sheets).collect();
         let Some([low, high]) = bounds(&places) else {
             return Err(Error::new("the plane misses the refined solid"));
         };
@@ -216,21 +215,74 @@ impl Field {
             start,
             side,
             values,
+            sheets,
         })
+    }
+
+    /// Where the plane cuts the triangles of sheets.
+    fn cut_sheets(&self, plane: Plane) -> Vec<Segment> {
+        let segment = |corners: &[u32; 3]| {
+            let mut crossings = Vec::with_capacity(3);
+            for [from, to] in [[0, 1], [1, 2], [2, 0]].map(|side| side.map(|k| corners[k])) {
+                let [at, to_at] = [from, to].map(|vertex| self.points[vertex as usize]);
+                let (low, high) = (plane.height(at), plane.height(to_at));
+                // Each corner belongs to one side, so that two of three sides are crossed or none.
+                if (low < 0.0) == (high < 0.0) {
+                    continue;
+                }
+                let part = low / (low - high);
+                let place = [0, 1, 2].map(|k| at[k] + part * (to_at[k] - at[k]));
+                let [value, to_value] = [from, to].map(|vertex| self.values[vertex as usize]);
+                crossings.push((plane.coordinates(place), value + part * (to_value - value)));
+            }
+            match crossings.as_slice() {
+                &[(from, value), (to, to_value)] => Some(Segment {
+                    ends: [from, to],
+                    value: (value + to_value) / 2.0,
+                }),
+                _ => None,
+            }
+        };
+        self.level.sheets().iter().filter_map(segment).collect()
     }
 
     /// The values at `count` points that part a segment evenly, both ends included; `None` outside
     /// the solid.
-    pub fn along(&self, [from, to]: [Point; 2], count: usize) -> Vec<Option<f64>> {
+    pub fn along(&self, ends: [Point; 2], count: usize) -> Vec<Option<f64>> {
         let locator = self.locator();
-        let at = |place: usize| {
-            let part = place as f64 / (count - 1) as f64;
-            [0, 1, 2].map(|k| from[k] * (1.0 - part) + to[k] * part)
-        };
         (0..count)
-            .map(|place| locator.inside(at(place)).map(|found| self.value(&found)))
+            .map(|place| {
+                let found = locator.inside(on_line(ends, place, count));
+                found.map(|found| self.value(&found))
+            })
             .collect()
     }
+}
+
+/// The point at `place` of `count` points that part a segment evenly.
+fn on_line([from, to]: [Point; 2], place: usize, count: usize) -> Point {
+    let part = place as f64 / (count - 1) as f64;
+    [0, 1, 2].map(|k| from[k] * (1.0 - part) + to[k] * part)
+}
+
+fn require_length(values: &[f64], vertices: usize) -> Result<()> {
+    if values.len() == vertices {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "there are {} values, but the mesh has {vertices} vertices",
+        values.len()
+    ))
+    .advise("give one value for each vertex, in file order"))
+}
+
+/// Where a plane cuts a triangle of a sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// From where to where, in the plane's coordinates.
+    pub ends: [[f64; 2]; 2],
+    /// The value in its middle.
+    pub value: f64,
 }
 
 /// Values on a square part of a plane, row by row from below.
@@ -242,16 +294,37 @@ pub struct Cut {
     start: [f64; 2],
     side: f64,
     values: Vec<Option<f64>>,
+    sheets: Vec<Segment>,
 }
 
 impl Cut {
-    /// The least and the greatest value; `None` if no grid point lies inside.
+    /// The least and the greatest value; `None` if no grid point lies inside and no sheet is cut.
     pub fn range(&self) -> Option<[f64; 2]> {
-        let values = self.values.iter().flatten();
+        let of_sheets = self.sheets.iter().map(|segment| segment.value);
+        let values = self.values.iter().flatten().copied().chain(of_sheets);
         values.fold(None, |range: Option<[f64; 2]>, value| match range {
-            None => Some([*value; 2]),
-            Some([low, high]) => Some([low.min(*value), high.max(*value)]),
+            None => Some([value; 2]),
+            Some([low, high]) => Some([low.min(value), high.max(value)]),
         })
+    }
+
+    /// Where the plane cuts sheets.
+    pub fn sheets(&self) -> &[Segment] {
+        &self.sheets
+    }
+
+    /// The grid points that lie inside the solid, row by row.
+    fn points_inside(&self) -> Vec<Point> {
+        let step = self.side / (self.size - 1) as f64;
+        let places = self.values.iter().enumerate();
+        places
+            .filter(|(_, value)| value.is_some())
+            .map(|(place, _)| {
+                let place = [place % self.size, place / self.size];
+                let [u, v] = [0, 1].map(|k| self.start[k] + place[k] as f64 * step);
+                self.plane.point([u, v])
+            })
+            .collect()
     }
 
     /// How many grid points lie inside the solid.

@@ -22,7 +22,7 @@ pub use volume::VolumeReport;
 use crate::bundle::{self, Contents, LONGEST_UNIT};
 use crate::check::{self, Volumes};
 use crate::error::{Error, Result, count};
-use crate::locate::{Embedding, Locator};
+use crate::locate::{Embedding, Locator, Nearest};
 use crate::mesh::{Point, SolidMesh};
 use crate::overlap;
 use crate::progress::Progress;
@@ -300,11 +300,16 @@ fn locate(
     progress: &mut dyn Progress,
 ) -> Result<(Vec<Embedding>, OutsideReport)> {
     progress.stage("locating points", model.len());
-    let locator = Locator::new(
-        &refined.last.cells,
-        refined.last.boundary(),
-        &refined.points,
-    );
+    let skin = refined.last.skin();
+    let locator = Locator::new(&refined.last.cells, &skin, &refined.points);
+    // There is no cell behind a sheet: what is beside it moves with its nearest point.
+    let carried = |nearest: &Nearest, point: Point| {
+        if nearest.triangle < refined.last.boundary_count {
+            locator.extrapolated(nearest, point)
+        } else {
+            Some(locator.projected(nearest))
+        }
+    };
     let mut report = OutsideReport {
         treatment: outside,
         ..OutsideReport::default()
@@ -324,11 +329,11 @@ fn locate(
                     // The bits could not tell such a point from one on the boundary.
                     _ if nearest.distance <= format.unit() => {
                         report.on_boundary += 1;
-                        locator.extrapolated(&nearest, *point)
+                        carried(&nearest, *point)
                     }
                     Outside::Extrapolate => {
                         report.add(index, nearest.distance);
-                        locator.extrapolated(&nearest, *point)
+                        carried(&nearest, *point)
                     }
                     Outside::Error | Outside::Nearest => {
                         report.add(index, nearest.distance);

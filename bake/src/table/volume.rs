@@ -45,6 +45,7 @@ pub(super) fn section(
         }
     };
     let level = Level::new(cage)?;
+    level.require_bare_boundary()?;
     let faces = level.boundary().iter().map(|face| face.to_vec());
     let surface = Enclosure::new(&faces.collect::<Vec<_>>(), &cage.features)?;
     let [form, before] = surface.control_forms(scheme)?;

@@ -4,6 +4,7 @@
 //! back.
 
 use super::failed;
+use super::vtu::{cell_type, elements, labels};
 use crate::error::Result;
 use crate::mesh::SolidMesh;
 use octruss::mesh::OCTAHEDRON_FACES;
@@ -13,9 +14,12 @@ use std::io::Write;
 const TETRAHEDRON_ENTRY: usize = 1 + 4;
 /// The entry of an octahedron: its length, the number of faces, and the length and corners of each.
 const OCTAHEDRON_ENTRY: usize = 2 + 8 * 4;
+/// The entry of a triangle of a sheet.
+const SHEET_ENTRY: usize = 1 + 3;
 
-/// Writes points and cells: all tetrahedra, then all octahedra; labels as the data `label` of the
-/// cells, channels as data of the points. Features are not part of the format.
+/// Writes points and cells: all tetrahedra, then all octahedra, then the triangles of sheets; labels
+/// as the data `label` of the cells (0 on sheets), channels as data of the points. Other features are
+/// not part of the format.
 pub fn write(mesh: &SolidMesh, out: &mut dyn Write) -> Result<()> {
     write_grid(mesh, out).map_err(failed)
 }
@@ -30,9 +34,12 @@ fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
     for [x, y, z] in &mesh.points {
         writeln!(out, "{x} {y} {z}")?;
     }
-    let size =
-        TETRAHEDRON_ENTRY * cells.tetrahedra.len() + OCTAHEDRON_ENTRY * cells.octahedra.len();
-    writeln!(out, "CELLS {} {size}", cells.len())?;
+    let sheets = &mesh.features.sheets;
+    let count = cells.len() + sheets.len();
+    let size = TETRAHEDRON_ENTRY * cells.tetrahedra.len()
+        + OCTAHEDRON_ENTRY * cells.octahedra.len()
+        + SHEET_ENTRY * sheets.len();
+    writeln!(out, "CELLS {count} {size}")?;
     for [a, b, c, d] in &cells.tetrahedra {
         writeln!(out, "4 {a} {b} {c} {d}")?;
     }
@@ -47,9 +54,12 @@ fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         }
         writeln!(out)?;
     }
-    writeln!(out, "CELL_TYPES {}", cells.len())?;
-    for cell in cells.corners() {
-        writeln!(out, "{}", if cell.len() == 4 { 10 } else { 42 })?;
+    for [a, b, c] in sheets {
+        writeln!(out, "3 {a} {b} {c}")?;
+    }
+    writeln!(out, "CELL_TYPES {count}")?;
+    for element in elements(mesh) {
+        writeln!(out, "{}", cell_type(element.len()))?;
     }
     data(mesh, out)
 }
@@ -60,9 +70,9 @@ fn data(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         writeln!(
             out,
             "CELL_DATA {}\nSCALARS label int 1\nLOOKUP_TABLE default",
-            mesh.cells.len()
+            elements(mesh).count()
         )?;
-        for label in mesh.labels.iter() {
+        for label in labels(mesh) {
             writeln!(out, "{label}")?;
         }
     }

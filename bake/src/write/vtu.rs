@@ -10,8 +10,9 @@ use octruss::mesh::OCTAHEDRON_FACES;
 use std::fmt::Display;
 use std::io::Write;
 
-/// Writes points and cells: all tetrahedra, then all octahedra; labels as the data `label` of the
-/// cells, channels as data of the points. Features are not part of the format.
+/// Writes points and cells: all tetrahedra, then all octahedra, then the triangles of sheets; labels
+/// as the data `label` of the cells (0 on sheets), channels as data of the points. Other features are
+/// not part of the format.
 pub fn write(mesh: &SolidMesh, out: &mut dyn Write) -> Result<()> {
     write_grid(mesh, out).map_err(failed)
 }
@@ -28,7 +29,7 @@ fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         out,
         "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
         mesh.points.len(),
-        cells.len()
+        cells.len() + mesh.features.sheets.len()
     )?;
     data(mesh, out)?;
     writeln!(out, "<Points>")?;
@@ -39,20 +40,39 @@ fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         points,
     )?;
     writeln!(out, "</Points>\n<Cells>")?;
-    array(out, "type=\"Int64\" Name=\"connectivity\"", cells.corners())?;
-    let ends = cells.corners().scan(0_usize, |end, cell| {
-        *end += cell.len();
+    array(out, "type=\"Int64\" Name=\"connectivity\"", elements(mesh))?;
+    let ends = elements(mesh).scan(0_usize, |end, element| {
+        *end += element.len();
         Some([*end])
     });
     array(out, "type=\"Int64\" Name=\"offsets\"", ends)?;
-    let types = cells
-        .corners()
-        .map(|cell| [if cell.len() == 4 { 10_u8 } else { 42 }]);
+    let types = elements(mesh).map(|element| [cell_type(element.len())]);
     array(out, "type=\"UInt8\" Name=\"types\"", types)?;
     if !cells.octahedra.is_empty() {
         polyhedra(mesh, out)?;
     }
     writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
+}
+
+/// The corners of all that is written: the cells, then the triangles of sheets.
+pub(super) fn elements(mesh: &SolidMesh) -> impl Iterator<Item = &[u32]> {
+    let sheets = mesh.features.sheets.iter().map(|sheet| sheet.as_slice());
+    mesh.cells.corners().chain(sheets)
+}
+
+/// The labels of all that is written.
+pub(super) fn labels(mesh: &SolidMesh) -> impl Iterator<Item = i32> {
+    let sheets = mesh.features.sheets.iter().map(|_| 0);
+    mesh.labels.iter().chain(sheets)
+}
+
+/// VTK's number of a cell with so many corners.
+pub(super) fn cell_type(corners: usize) -> u8 {
+    match corners {
+        3 => 5,
+        4 => 10,
+        _ => 42,
+    }
 }
 
 /// Channels and labels.
@@ -71,7 +91,7 @@ fn data(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
     }
     if !mesh.labels.is_empty() {
         writeln!(out, "<CellData>")?;
-        let labels = mesh.labels.iter().map(|label| [label]);
+        let labels = labels(mesh).map(|label| [label]);
         array(out, "type=\"Int32\" Name=\"label\"", labels)?;
         writeln!(out, "</CellData>")?;
     }
@@ -104,10 +124,11 @@ fn polyhedra(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
     array(out, "type=\"Int64\" Name=\"faces\"", stream)?;
     let no_polyhedra = mesh.cells.tetrahedra.iter().map(|_| [-1_i64]);
     let ends = (1..=mesh.cells.octahedra.len()).map(|number| [(number * STREAM) as i64]);
+    let sheets = mesh.features.sheets.iter().map(|_| [-1_i64]);
     array(
         out,
         "type=\"Int64\" Name=\"faceoffsets\"",
-        no_polyhedra.chain(ends),
+        no_polyhedra.chain(ends).chain(sheets),
     )
 }
 

@@ -74,9 +74,19 @@ impl Builder {
                 ];
                 self.mesh.features.faces.push(face);
             }
-            (ElementType::Quadrangle, _) if self.in_group(2, groups, "crease") => {
+            (ElementType::Triangle, &[a, b, c]) if self.in_group(2, groups, "sheet") => {
+                let triangle = [
+                    self.vertex(a, place)?,
+                    self.vertex(b, place)?,
+                    self.vertex(c, place)?,
+                ];
+                self.mesh.features.sheets.push(triangle);
+            }
+            (ElementType::Quadrangle, _)
+                if self.in_group(2, groups, "crease") || self.in_group(2, groups, "sheet") =>
+            {
                 return Err(Error::new(
-                    "a physical surface whose name starts with \"crease\" holds this quadrangle; the faces of a cage's cells are triangles",
+                    "a physical surface whose name starts with \"crease\" or \"sheet\" holds this quadrangle; the faces of a cage's cells are triangles",
                 )
                 .at(place)
                 .advise("mesh the surface with triangles, or rename the group"));
@@ -138,7 +148,7 @@ impl Builder {
             .collect();
         if !ignored.is_empty() {
             self.mesh.notes.push(format!(
-                "left out: {} (in no physical group whose name starts with \"crease\" for curves and surfaces or \"corner\" for points)",
+                "left out: {} (in no physical group whose name starts with \"crease\" for curves and surfaces, \"sheet\" for surfaces or \"corner\" for points)",
                 ignored.join(", ")
             ));
         }
