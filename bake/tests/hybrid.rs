@@ -12,11 +12,7 @@ use octruss_bake::table::{Input, Options, bake};
 use predicates::str::contains;
 use std::path::Path;
 
-const SCHEMES: [Scheme; 3] = [
-    Scheme::TetOct,
-    Scheme::BoxSpline,
-    Scheme::BoxSplineAveraged,
-];
+const SCHEMES: [Scheme; 3] = [Scheme::TetOct, Scheme::BoxSpline, Scheme::BoxSplineAveraged];
 
 /// A tetrahedron far away, and a hexagon of six triangles round a raised vertex.
 fn hexagon() -> SolidMesh {
@@ -109,8 +105,17 @@ fn sheets_are_written_with_the_solid() {
     let folder = Folder::new();
     let cage = folder.write("fin.msh", GMSH);
     for (output, parts) in [
-        ("out.vtu", vec!["NumberOfCells=\"9\"", "5\n5\n5\n5\n</DataArray>"]),
-        ("out.vtk", vec!["CELLS 9 70", "CELL_TYPES 9\n10\n10\n10\n10\n42\n5\n5\n5\n5\n"]),
+        (
+            "out.vtu",
+            vec!["NumberOfCells=\"9\"", "5\n5\n5\n5\n</DataArray>"],
+        ),
+        (
+            "out.vtk",
+            vec![
+                "CELLS 9 70",
+                "CELL_TYPES 9\n10\n10\n10\n10\n42\n5\n5\n5\n5\n",
+            ],
+        ),
         ("out.obj", vec!["f 1 "]),
     ] {
         octruss()
@@ -125,7 +130,10 @@ fn sheets_are_written_with_the_solid() {
             assert!(text.contains(part), "{output} lacks {part:?}:\n{text}");
         }
         if output == "out.obj" {
-            assert_eq!(text.lines().filter(|line| line.starts_with("f ")).count(), 20);
+            assert_eq!(
+                text.lines().filter(|line| line.starts_with("f ")).count(),
+                20
+            );
         }
     }
 }
@@ -146,7 +154,10 @@ fn points_on_a_sheet_are_baked() {
         ..Options::default()
     };
     let baked = bake(input, &options, &mut octruss_bake::progress::Silent).unwrap();
-    assert_eq!(baked.rows, [vec![(4, 1.0)], vec![(0, 0.25), (1, 0.25), (4, 0.5)]]);
+    assert_eq!(
+        baked.rows,
+        [vec![(4, 1.0)], vec![(0, 0.25), (1, 0.25), (4, 0.5)]]
+    );
 }
 
 #[test]

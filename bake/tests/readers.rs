@@ -163,7 +163,7 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
             TWO_TETRAHEDRA_2,
             "0 7 \"Corner top\"",
             "2 7 \"crease skin\"",
-            "line 26: a physical surface whose name starts with \"crease\" holds this quadrangle; the faces of a cage's cells are triangles\n  help: mesh the surface with triangles, or rename the group",
+            "line 26: a physical surface whose name starts with \"crease\" or \"sheet\" holds this quadrangle; the faces of a cage's cells are triangles\n  help: mesh the surface with triangles, or rename the group",
         ),
         (
             TWO_TETRAHEDRA_2,
