@@ -3,7 +3,7 @@
 
 mod forms_support;
 
-use forms_support::{Shape, cubes, degenerate_cube, tetrahedron};
+use forms_support::{Shape, cubes, degenerate_cube, degenerate_tetrahedron, tetrahedron};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use octruss_bake::forms::exact::{Field, Quadratic};
@@ -67,6 +67,10 @@ fn degenerate_meshes_have_the_volume_of_their_polyhedron() {
         exact_volume(Scheme::DooSabin, &degenerate_cube(2)),
         Quadratic::one()
     );
+    let sixth = Quadratic::from(fraction("1", "6"));
+    for scheme in [Scheme::Loop, Scheme::LoopWarren] {
+        assert_eq!(exact_volume(scheme, &degenerate_tetrahedron(8)), sixth);
+    }
     let cube = degenerate_cube(3);
     let surface = LimitSurface::<f64>::new(Scheme::CatmullClark, &mesh(&cube)).unwrap();
     for (degree, want) in [(0, 1.0), (1, 0.5), (2, 1.0 / 3.0), (3, 0.25)] {
@@ -113,6 +117,7 @@ fn refinement_and_translation_change_nothing() {
         (Scheme::DooSabin, cube.clone()),
         (Scheme::Loop, tetrahedron().scaled(20).shaken(8, 5)),
         (Scheme::LoopWarren, cube.triangulated()),
+        (Scheme::CatmullClark, cube.clone()),
     ] {
         let want = exact_volume(scheme, &shape);
         let coarse = mesh(&shape);

@@ -150,3 +150,141 @@ fn forms_are_printed() {
     .success()
     .stdout(contains("\"control_points\": 18"));
 }
+
+/// Two tetrahedra that are mirror images, with labels 1 and -2, between them the plane z = 0: each has
+/// half of the exact volume of the whole. Regions are extrapolated, so they are as exact as the
+/// report estimates. Modes are the cage stretched along x, y and z.
+#[test]
+fn regions_and_modes_are_baked() {
+    let directory = tempdir().expect("a directory");
+    let file = |name: &str, text: &str| {
+        let path = directory.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    };
+    let cage = file(
+        "two.mesh",
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 0\n2 0 0 0\n0 2 0 0\n\
+         0.5 0.5 2 0\n0.5 0.5 -2 0\nTetrahedra\n2\n1 2 3 4 1\n1 3 2 5 -2\nEnd\n",
+    );
+    let model = file("point.obj", "v 0.7 0.7 0.1\n");
+    let points = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [0.5, 0.5, 2.0],
+        [0.5, 0.5, -2.0],
+    ];
+    let mut motion = String::new();
+    for axis in 0..3 {
+        for (vertex, point) in points.iter().enumerate() {
+            let mut point: [f64; 3] = *point;
+            point[axis] *= 1.5;
+            let [x, y, z] = point;
+            motion += &format!("{axis},{vertex},{x},{y},{z}\n");
+        }
+    }
+    let modes = file("modes.csv", &motion);
+    let bundle = directory.path().join("two.oct");
+    let mut bake = Command::cargo_bin("octruss").expect("the binary is built");
+    bake.args(["bake", "--volume", "--volume=1", "--volume=-2", "--json"]);
+    bake.arg("--modes").arg(modes).arg("--model").arg(&model);
+    bake.arg(&cage).arg("-o").arg(&bundle);
+    let out = bake.assert().success().get_output().stdout.clone();
+    let report: serde_json::Value = serde_json::from_slice(&out).expect("JSON");
+    let volumes = report["volumes"].as_array().expect("a list");
+    let of = |place: usize, key: &str| volumes[place][key].as_f64().expect("a number");
+    assert_eq!(volumes.len(), 3);
+    assert!(volumes[0]["label"].is_null());
+    assert_eq!(
+        (&volumes[1]["label"], &volumes[2]["label"]),
+        (&1.into(), &(-2).into())
+    );
+    for place in [1, 2] {
+        let estimate = of(place, "error_estimate");
+        let gap = (of(place, "volume") - of(0, "volume") / 2.0).abs();
+        assert!(
+            gap <= estimate && estimate < 1e-3 * of(0, "volume"),
+            "{gap} {estimate}"
+        );
+        assert_eq!(volumes[place]["modes"]["coefficients"], 20);
+    }
+
+    // On the device: at rest form and polynomial agree within their bounds, and doubling the width,
+    // twice a mode, doubles the volume.
+    let bytes = BundleBytes::read(&bundle).expect("a file");
+    let bundle = bytes.open().expect("a bundle");
+    let cube = 0.5_f64.powi(3 * i32::try_from(bundle.header().fraction_bits.get()).expect("few"));
+    for (place, region) in [0, 1, (-2_i32).cast_unsigned()].into_iter().enumerate() {
+        let form = bundle
+            .volume_form::<i32>(region)
+            .expect("sound")
+            .expect("a form");
+        let mut workspace = vec![[0; 3]; form.workspace_length()];
+        let volume = form
+            .volume(bundle.rest_cage(), &mut workspace)
+            .expect("fitting")
+            .volume;
+        let unit = |exponent: i64| 2.0_f64.powi(i32::try_from(exponent).expect("small")) * cube;
+        let volume = volume as f64 * unit(form.volume_exponent());
+        assert!((volume - of(place, "volume")).abs() <= of(place, "error_bound"));
+        let modes = bundle
+            .volume_modes::<i32>(region)
+            .expect("sound")
+            .expect("modes");
+        let bound = volumes[place]["modes"]["error_bound"]
+            .as_f64()
+            .expect("a number");
+        let at = |amplitudes: [i32; 3]| {
+            modes.volume(&amplitudes).expect("three") as f64 * unit(modes.volume_exponent())
+        };
+        assert!((at([0; 3]) - of(place, "volume")).abs() <= bound);
+        // 1.5 at amplitude 1, so 2 at amplitude 2: amplitudes to 2 have eight times the bound.
+        let doubled = at([i32::MAX, 0, 0]);
+        assert!((doubled - 2.0 * of(place, "volume")).abs() <= 8.0 * bound);
+    }
+    assert!(bundle.volume_modes::<i32>(7).expect("no error").is_none());
+
+    for (arguments, message) in [
+        ("--volume=3", "two.mesh: no cell has the label 3"),
+        (
+            "--volume --boundary fixed",
+            "the enclosed volume of this boundary rule has no form",
+        ),
+    ] {
+        let mut bake = Command::cargo_bin("octruss").expect("the binary is built");
+        bake.arg("bake")
+            .args(arguments.split(' '))
+            .arg("--model")
+            .arg(&model);
+        bake.arg(&cage)
+            .arg("-o")
+            .arg(directory.path().join("none.oct"));
+        bake.assert().code(1).stderr(contains(message));
+        assert!(!directory.path().join("none.oct").exists());
+    }
+}
+
+/// The bundle of a surface holds its volume too: the paper's 6241/9920 of Doo and Sabin's unit cube.
+#[test]
+fn surfaces_are_baked_with_their_volume() {
+    let directory = tempdir().expect("a directory");
+    let cube = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+                f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+    std::fs::write(directory.path().join("cube.obj"), cube).expect("written");
+    let mut bake = octruss(
+        directory.path(),
+        "bake cube.obj --scheme doo-sabin --volume --json -o cube.oct",
+    );
+    let out = bake.assert().success().get_output().stdout.clone();
+    let report: serde_json::Value = serde_json::from_slice(&out).expect("JSON");
+    let volume = report["volumes"][0]["volume"].as_f64().expect("a number");
+    assert!((volume - 6241.0 / 9920.0).abs() < 1e-12, "{volume}");
+    octruss(
+        directory.path(),
+        "bake cube.obj --scheme doo-sabin --volume=4 -o none.oct",
+    )
+    .assert()
+    .code(1)
+    .stderr(contains("a surface has no labelled regions"));
+}

@@ -3,9 +3,11 @@
 mod forms_support;
 
 use forms_support::{Shape, cubes};
-use octruss::enclosed::{EnclosedError, VolumeForm};
+use octruss::enclosed::{EnclosedError, VolumeForm, VolumeModes};
 use octruss_bake::forms::solid::Enclosure;
-use octruss_bake::forms::{ClosedMesh, ControlForm, DeviceForm, LimitSurface, Scheme};
+use octruss_bake::forms::{
+    ClosedMesh, ControlForm, DeviceForm, DeviceModes, LimitSurface, ModeVolume, Scheme,
+};
 use octruss_bake::mesh::Features;
 use zerocopy::IntoBytes;
 
@@ -127,10 +129,8 @@ fn sections_are_read_in_place() {
     assert_eq!(open(&bytes[1..=section.len()]), layout);
 }
 
-/// With creases the polyhedra of two levels are extrapolated. A cube whose edges are creases and
-/// whose corners are corners is its own limit surface.
-#[test]
-fn creases_are_extrapolated() {
+/// A cube whose edges are creases and whose corners are corners is its own limit surface.
+fn sharp_cube() -> (Shape, Enclosure) {
     let shape = cubes(&[[0, 0, 0]]).triangulated();
     let corners = Features {
         corners: (0..8).collect(),
@@ -147,9 +147,129 @@ fn creases_are_extrapolated() {
     }
     all.normalise();
     let surface = Enclosure::new(&shape.faces, &all).unwrap();
+    (shape, surface)
+}
+
+/// With creases the polyhedra of two levels are extrapolated.
+#[test]
+fn creases_are_extrapolated() {
+    let (shape, surface) = sharp_cube();
     let [form, before] = surface.control_forms(Scheme::Loop).unwrap();
     // All edges are straight creases with fixed ends: the surface is the cube.
     assert!((form.volume(&shape.real()) - 1.0).abs() < 1e-12);
     assert!((before.volume(&shape.real()) - 1.0).abs() < 1e-12);
     assert!(surface.limit(Scheme::Loop).is_err());
+}
+
+/// A cube that three modes stretch along the axes has the volume (1 + q_1)(1 + q_2)(1 + q_3): eight
+/// of its twenty coefficients are one, the others zero.
+#[test]
+fn a_stretched_cube_is_a_product() {
+    let (shape, surface) = sharp_cube();
+    let [form, _] = surface.control_forms(Scheme::Loop).unwrap();
+    let rest = shape.real();
+    let stretched = |axis: usize| -> Vec<[f64; 3]> {
+        let mut pose = rest.clone();
+        pose.iter_mut().for_each(|point| point[axis] *= 2.0);
+        pose
+    };
+    let volume = ModeVolume::new(&form, &rest, &[0, 1, 2].map(stretched));
+    let mut indices = (0..4).flat_map(|a| (a..4).flat_map(move |b| (b..4).map(move |c| [a, b, c])));
+    assert_eq!(volume.coefficients.len(), 20);
+    for coefficient in &volume.coefficients {
+        let [a, b, c] = indices.next().unwrap();
+        let repeats = (a == b && a > 0) || (b == c && b > 0);
+        let want = if repeats { 0.0 } else { 1.0 };
+        assert!(
+            (coefficient - want).abs() < 1e-12,
+            "{a} {b} {c}: {coefficient}"
+        );
+    }
+}
+
+/// The polynomial of sixteen modes is the form of the combined pose, and the device's integers keep
+/// their stated bound to it.
+#[test]
+fn modes_stand_for_their_poses() {
+    let shape = shape(1);
+    let form = ControlForm::of_surface(&surface(&shape)).unwrap();
+    let rest = shape.real();
+    let poses: Vec<Vec<[f64; 3]>> = (0..16)
+        .map(|mode| shape.shaken(20 + mode, 100).real())
+        .collect();
+    let volume = ModeVolume::new(&form, &rest, &poses);
+    assert_eq!(volume.coefficients.len(), 969);
+    let device = DeviceModes::new(&volume, 10);
+    let section = device.section();
+    let mut words = vec![0_u64; section.len().div_ceil(8)];
+    words.as_mut_bytes()[..section.len()].copy_from_slice(&section);
+    let view = VolumeModes::from_section(&words.as_bytes()[..section.len()]).unwrap();
+    let unit = 2.0_f64.powi(i32::try_from(view.volume_exponent() - 30).unwrap());
+    let bound = device.volume_bound(1.0) * 2.0_f64.powi(-30);
+    let mut greatest = 0.0_f64;
+    for seed in 0..40_i64 {
+        // Multiples of 2^-30 from -1 to 1, by a linear congruence.
+        let amplitude =
+            |mode: i64| (((seed * 16 + mode) * 1_103_515_245 + 12_345) % (1 << 31)) - (1 << 30);
+        let bits: Vec<i32> = (0..16)
+            .map(|mode| i32::try_from(amplitude(mode)).unwrap())
+            .collect();
+        let amplitudes: Vec<f64> = bits
+            .iter()
+            .map(|bits| f64::from(*bits) / 2.0_f64.powi(30))
+            .collect();
+        let mut pose = rest.clone();
+        for (own, amplitude) in poses.iter().zip(&amplitudes) {
+            for ((point, moved), at) in pose.iter_mut().zip(own).zip(&rest) {
+                for axis in 0..3 {
+                    point[axis] += amplitude * (moved[axis] - at[axis]);
+                }
+            }
+        }
+        let real = volume.volume(&amplitudes);
+        assert!((form.volume(&pose) / real - 1.0).abs() < 1e-11);
+        let got = view.volume(&bits).unwrap();
+        let error = (got as f64 * unit - real).abs();
+        assert!(error <= bound, "{error} {bound}");
+        greatest = greatest.max(error);
+    }
+    // The bound is worth something.
+    assert!(greatest * 1e4 > bound, "{greatest} {bound}");
+}
+
+#[test]
+fn sections_of_modes_are_checked() {
+    let modes = DeviceModes {
+        modes: 1,
+        coefficients: vec![5, 4, 3, 2],
+        exponent: -7,
+    };
+    let section = modes.section();
+    let open = |change: &dyn Fn(&mut Vec<u8>)| {
+        let mut bytes = section.clone();
+        change(&mut bytes);
+        let mut words = vec![0_u64; bytes.len().div_ceil(8)];
+        words.as_mut_bytes()[..bytes.len()].copy_from_slice(&bytes);
+        let view = VolumeModes::from_section(&words.as_bytes()[..bytes.len()]);
+        view.map(|view| {
+            (
+                view.modes(),
+                view.volume_exponent(),
+                view.gradient_exponent(),
+            )
+        })
+    };
+    let layout = Err(EnclosedError::Layout { place: 0 });
+    assert_eq!(open(&|_| {}), Ok((1, -35, -36)));
+    assert_eq!(open(&|bytes| bytes.truncate(15)), layout);
+    assert_eq!(open(&|bytes| bytes.truncate(31)), layout);
+    assert_eq!(open(&|bytes| bytes[12] = 1), layout);
+    assert_eq!(open(&|bytes| bytes[2] = 1), layout);
+    assert_eq!(
+        open(&|bytes| bytes.truncate(28)),
+        Err(EnclosedError::Length {
+            needed: 4,
+            given: 3
+        })
+    );
 }

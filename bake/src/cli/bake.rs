@@ -6,11 +6,12 @@ use super::{
 };
 use octruss_bake::error::{Error, Result, count};
 use octruss_bake::inspect::{interior_edges_of_valence_3, irregular_boundary_edges};
-use octruss_bake::mesh::SolidMesh;
+use octruss_bake::mesh::{Point, SolidMesh};
+use octruss_bake::read::motion;
 use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::surface::RimRule;
 use octruss_bake::table::format::MOST_FRACTION_BITS;
-use octruss_bake::table::{Input, Options, Outside, Request, TableFormat, bake};
+use octruss_bake::table::{Input, Options, Outside, Region, Request, TableFormat, bake};
 use octruss_bake::write::Prepared;
 use octruss_bake::{check, read};
 use std::path::PathBuf;
@@ -84,9 +85,14 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     outside: Outside,
     /// Also bake the volume that the cage's smooth boundary encloses, as one form over its control
-    /// points; with --boundary loop or loop-warren
-    #[arg(long)]
-    volume: bool,
+    /// points, with --boundary loop or loop-warren; or with --volume=LABEL that of the cells with a label.
+    /// May be given several times
+    #[arg(long, value_name = "LABEL", num_args = 0..=1, require_equals = true, default_missing_value = "0", allow_hyphen_values = true)]
+    volume: Vec<i32>,
+    /// With --volume: also bake the volumes as polynomials of the amplitudes of modes; a .csv or a folder like
+    /// that of a motion, in which every frame is the pose of one mode at amplitude one
+    #[arg(long, value_name = "MODES", requires = "volume")]
+    modes: Option<PathBuf>,
     /// Where the random poses start from on which the error is measured
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     pub seed: u64,
@@ -138,7 +144,10 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         fraction_bits: arguments.fraction_bits,
         unit: arguments.unit.clone(),
         outside: arguments.outside,
-        volume: arguments.volume,
+        volumes: regions(arguments),
+        modes: modes(arguments, cage.points.len(), &|mesh| {
+            require_same_cells(&cage, mesh)
+        })?,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,
@@ -168,6 +177,38 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         );
     }
     print_figures(&baked.report, arguments.json, || baked.report.to_string())
+}
+
+/// The regions whose volumes are asked for.
+pub fn regions(arguments: &Arguments) -> Vec<Region> {
+    let region = |label: &i32| match label {
+        0 => Region::Whole,
+        label => Region::Label(*label),
+    };
+    arguments.volume.iter().map(region).collect()
+}
+
+/// The poses of modes at amplitude one.
+pub fn modes(
+    arguments: &Arguments,
+    control_points: usize,
+    check: &dyn Fn(&SolidMesh) -> Result<()>,
+) -> Result<Vec<Vec<Point>>> {
+    let Some(file) = &arguments.modes else {
+        return Ok(Vec::new());
+    };
+    let frames = motion::read(file, control_points, check)?;
+    Ok(frames.into_iter().map(|frame| frame.points).collect())
+}
+
+fn require_same_cells(cage: &SolidMesh, pose: &SolidMesh) -> Result<()> {
+    if pose.points.len() == cage.points.len() && pose.cells == cage.cells {
+        return Ok(());
+    }
+    Err(
+        Error::new("the pose of a mode has another connectivity than the cage")
+            .advise("a mode is the cage with its vertices moved"),
+    )
 }
 
 /// Warns of what a map can be built on, but had better not. Error if the connectivity is none of a

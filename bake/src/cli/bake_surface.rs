@@ -1,6 +1,6 @@
 //! `octruss bake` of surfaces.
 
-use super::bake::{Arguments, write_sources};
+use super::bake::{Arguments, modes, regions, write_sources};
 use super::{print_figures, progress::Bars, show_notes};
 use octruss_bake::error::{Error, Result};
 use octruss_bake::read;
@@ -29,6 +29,10 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
         limit: arguments.limit,
         fraction_bits: arguments.fraction_bits,
         unit: arguments.unit.clone(),
+        volumes: regions(arguments),
+        modes: modes(arguments, mesh.points.len(), &|_| {
+            Err(Error::new("the modes of a surface are read from a .csv"))
+        })?,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

@@ -13,6 +13,7 @@
 //! * [`surface`], [`moments`], [`target`]: the volume of a whole mesh and its gradient, centroid and
 //!   inertia, and the nearest mesh that encloses a given volume.
 //! * [`control`], [`device`]: the volume as one form over the control points, and in integers.
+//! * [`modes`]: the volume as a cubic polynomial of a few modes; [`region`]: of the cells with a label.
 //! * [`solid`], [`portrait`]: the surfaces of files, and their picture.
 
 pub mod cache;
@@ -24,10 +25,12 @@ pub mod form;
 pub mod local;
 pub mod make;
 pub mod mesh;
+pub mod modes;
 pub mod moments;
 mod patch;
 mod polynomial;
 pub mod portrait;
+pub mod region;
 pub mod scheme;
 pub mod solid;
 pub mod surface;
@@ -39,6 +42,7 @@ pub use error::FormError;
 pub use form::TrilinearForm;
 pub use local::MAX_VALENCE;
 pub use mesh::ClosedMesh;
+pub use modes::{DeviceModes, MOST_MODES, ModeVolume};
 pub use moments::Moments;
 pub use scheme::Scheme;
 pub use surface::LimitSurface;

@@ -17,7 +17,7 @@ mod volume;
 
 pub use choice::{FormatReport, Request, TableFormat};
 pub use report::{LargestRow, OutsideReport, Report, TapsReport, WeightsReport};
-pub use volume::VolumeReport;
+pub use volume::{ModesReport, Region, VolumeReport};
 
 use crate::bundle::{self, Contents, LONGEST_UNIT};
 use crate::check::{self, Volumes};
@@ -65,8 +65,10 @@ pub struct Options {
     pub unit: String,
     /// What to do with points outside.
     pub outside: Outside,
-    /// Also bake the form of the volume that the smooth boundary encloses.
-    pub volume: bool,
+    /// Also bake the forms of these regions' volumes.
+    pub volumes: Vec<Region>,
+    /// Modes that those volumes are also baked for, as polynomials: each the pose at amplitude one.
+    pub modes: Vec<Vec<Point>>,
     /// How the format of the table is chosen.
     pub request: Request,
     /// Random poses on which the table's error is measured.
@@ -85,7 +87,8 @@ impl Default for Options {
             fraction_bits: None,
             unit: String::new(),
             outside: Outside::Error,
-            volume: false,
+            volumes: Vec::new(),
+            modes: Vec::new(),
             request: Request::default(),
             random_poses: 4,
             seed: 0,
@@ -157,14 +160,17 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
     };
     let (packed, formats) = choose(&material, options.request)?;
     let mut sections = packed.sections.clone();
-    let volume = if options.volume {
-        let (section, report) =
-            volume::section(cage, options.boundary, format, &rest_cage).map_err(of_cage)?;
-        sections.push(section);
-        Some(report)
-    } else {
-        None
+    let wanted = volume::Wanted {
+        regions: &options.volumes,
+        modes: &options.modes,
+        points: &cage.points,
+        rest: &rest_cage,
+        format,
     };
+    let (of_volumes, volumes) = wanted
+        .sections(|region| volume::of_cage(cage, options, region))
+        .map_err(of_cage)?;
+    sections.extend(of_volumes);
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,
@@ -204,7 +210,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         outside,
         formats,
         precision,
-        volume,
+        volumes,
     };
     Ok(Baked {
         bundle: bytes,

@@ -43,9 +43,9 @@ pub struct Report {
     pub formats: Vec<FormatReport>,
     /// Errors of a direct table with weights of 30 fraction bits.
     pub precision: Precision,
-    /// The form of the enclosed volume, if it was baked.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub volume: Option<VolumeReport>,
+    /// The forms of enclosed volumes that were baked.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub volumes: Vec<VolumeReport>,
 }
 
 /// Numbers of taps.
@@ -192,22 +192,8 @@ impl fmt::Display for Report {
                 )?;
             }
         }
-        if let Some(volume) = &self.volume {
-            let cube = match unit {
-                "" => String::new(),
-                unit => format!("{unit}^3"),
-            };
-            writeln!(
-                f,
-                "volume      {}{cube} (estimated error {:.1e}); {} taps on {} control points, \
-                 {} bytes, off by at most {:.1e} on a device",
-                volume.volume,
-                volume.error_estimate,
-                volume.taps,
-                volume.control_points,
-                volume.bytes,
-                volume.error_bound
-            )?;
+        for volume in &self.volumes {
+            volume.write(f, unit)?;
         }
         self.write_outside(f, unit)?;
         self.write_formats(f, unit, step)?;

@@ -5,6 +5,7 @@
 
 use super::choice::{FormatReport, Material, Request, choose};
 use super::format::Format;
+use super::volume::{self, Region, VolumeReport};
 use super::{TapsReport, require_unit};
 use crate::bundle::{self, Contents};
 use crate::error::{Error, Result, count};
@@ -31,6 +32,10 @@ pub struct SurfaceOptions {
     pub fraction_bits: Option<u32>,
     /// Name of the unit, at most 16 bytes.
     pub unit: String,
+    /// Also bake the forms of these volumes.
+    pub volumes: Vec<Region>,
+    /// Modes that they are also baked for: each the pose at amplitude one.
+    pub modes: Vec<Vec<Point>>,
     /// Which format is taken.
     pub request: Request,
     /// Random poses on which the table's error is measured.
@@ -79,6 +84,9 @@ pub struct SurfaceReport {
     pub bytes: usize,
     /// What every format costs; the one that was taken comes first.
     pub formats: Vec<FormatReport>,
+    /// The forms of enclosed volumes that were baked.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub volumes: Vec<VolumeReport>,
 }
 
 /// Bakes the table of all vertices of a refined surface.
@@ -136,6 +144,16 @@ pub fn bake_surface(
         seed: options.seed,
     };
     let (packed, formats) = choose(&material, options.request)?;
+    let wanted = volume::Wanted {
+        regions: &options.volumes,
+        modes: &options.modes,
+        points: &mesh.points,
+        rest: &rest_cage,
+        format,
+    };
+    let (of_volumes, volumes) =
+        wanted.sections(|region| volume::of_surface(mesh, options.scheme, region))?;
+    let sections = [packed.sections.clone(), of_volumes].concat();
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,
@@ -144,7 +162,7 @@ pub fn bake_surface(
         levels: options.levels,
         control_points,
         rows: points.len(),
-        sections: &packed.sections,
+        sections: &sections,
         cage_checksum: bundle::surface_checksum(&control),
         model_checksum: bundle::model_checksum(&points),
     })?;
@@ -163,6 +181,7 @@ pub fn bake_surface(
         taps: TapsReport::of_lengths(&taps),
         bytes: bytes.len(),
         formats,
+        volumes,
     };
     Ok(BakedSurface {
         bundle: bytes,
@@ -194,6 +213,9 @@ impl fmt::Display for SurfaceReport {
             "taps        {} ({:.1} a row on average, {} at most)",
             self.taps.total, self.taps.mean, self.taps.longest
         )?;
+        for volume in &self.volumes {
+            volume.write(f, &self.unit)?;
+        }
         let taken = self.formats.first();
         let proved = taken.map_or(0.0, |format| format.proved * step);
         write!(

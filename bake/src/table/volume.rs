@@ -1,20 +1,45 @@
-//! The enclosed volume as a section of the bundle.
+//! The enclosed volumes as sections of the bundle.
 
+use super::Options;
 use super::format::Format;
 use crate::error::{Error, Result};
 use crate::forms::solid::Enclosure;
-use crate::forms::{DeviceForm, Scheme};
-use crate::mesh::SolidMesh;
+use crate::forms::{ControlForm, DeviceForm, DeviceModes, MOST_MODES, ModeVolume, Scheme, region};
+use crate::mesh::{Point, SolidMesh};
 use crate::pack::writer::Section;
 use crate::refine::{BoundaryRule, Level};
-use octruss::bundle::SECTION_VOLUME;
+use crate::surface::{SurfaceMesh, SurfaceScheme};
+use octruss::bundle::{SECTION_VOLUME, SECTION_VOLUME_MODES};
+use std::fmt;
+
+/// What a volume is enclosed by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// The smooth boundary of the cage.
+    Whole,
+    /// The border of the cells with this label, which is not 0.
+    Label(i32),
+}
+
+impl Region {
+    /// Its number in the bundle: 0 for the whole, else the label in two's complement.
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Whole => 0,
+            Self::Label(label) => label.cast_unsigned(),
+        }
+    }
+}
 
 /// What there is to say about a baked volume form.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct VolumeReport {
+    /// The label of the region's cells; none for the whole boundary.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub label: Option<i32>,
     /// The volume at rest, in cubes of the unit.
     pub volume: f64,
-    /// Where creases make it an extrapolation: how far the one before is from it.
+    /// Where it is an extrapolation (creases, regions): how far the one before is from it.
     pub error_estimate: f64,
     /// Control points that it depends on.
     pub control_points: usize,
@@ -25,47 +50,228 @@ pub struct VolumeReport {
     /// How far the device's result can be from the form's, for poses that are no larger than the cage
     /// at rest along any axis.
     pub error_bound: f64,
+    /// The same volume as a polynomial of modes, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modes: Option<ModesReport>,
 }
 
-/// The form of the volume that the cage's smooth boundary encloses.
-pub(super) fn section(
+/// What there is to say about a volume by modes.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct ModesReport {
+    /// Number of modes.
+    pub modes: usize,
+    /// Coefficients.
+    pub coefficients: usize,
+    /// Bytes of the section.
+    pub bytes: usize,
+    /// How far the device's result can be from the polynomial's, for amplitudes from -1 to 1.
+    pub error_bound: f64,
+}
+
+impl VolumeReport {
+    /// A line or two for people.
+    pub(super) fn write(&self, f: &mut fmt::Formatter<'_>, unit: &str) -> fmt::Result {
+        let cube = match unit {
+            "" => String::new(),
+            unit => format!("{unit}^3"),
+        };
+        let region = match self.label {
+            None => String::new(),
+            Some(label) => format!(" of label {label}"),
+        };
+        writeln!(
+            f,
+            "volume      {}{cube}{region} (estimated error {:.1e}); {} taps on {} control points, \
+             {} bytes, off by at most {:.1e} on a device",
+            self.volume,
+            self.error_estimate,
+            self.taps,
+            self.control_points,
+            self.bytes,
+            self.error_bound
+        )?;
+        let Some(modes) = &self.modes else {
+            return Ok(());
+        };
+        writeln!(
+            f,
+            "            in {} modes: {} coefficients, {} bytes, off by at most {:.1e} for amplitudes to 1",
+            modes.modes, modes.coefficients, modes.bytes, modes.error_bound
+        )
+    }
+}
+
+/// What volumes are baked of, and for which modes.
+pub(super) struct Wanted<'a> {
+    /// The regions.
+    pub regions: &'a [Region],
+    /// The poses of modes at amplitude one.
+    pub modes: &'a [Vec<Point>],
+    /// The control points at rest.
+    pub points: &'a [Point],
+    /// Their bits.
+    pub rest: &'a [[i32; 3]],
+    /// The format of coordinates.
+    pub format: Format,
+}
+
+impl Wanted<'_> {
+    /// The sections of all volumes; `forms` makes a region's form, and one that it should agree with.
+    pub fn sections(
+        &self,
+        forms: impl Fn(Region) -> Result<[ControlForm; 2]>,
+    ) -> Result<(Vec<Section>, Vec<VolumeReport>)> {
+        self.check_modes()?;
+        let (mut sections, mut reports) = (Vec::new(), Vec::new());
+        for (place, region) in self.regions.iter().enumerate() {
+            if self.regions[..place].contains(region) {
+                continue;
+            }
+            let forms = forms(*region)?;
+            let (section, mut report) = self.whole(*region, &forms)?;
+            sections.push(section);
+            if !self.modes.is_empty() {
+                let (section, of_modes) = self.by_modes(*region, &forms[0]);
+                sections.push(section);
+                report.modes = Some(of_modes);
+            }
+            reports.push(report);
+        }
+        Ok((sections, reports))
+    }
+
+    fn check_modes(&self) -> Result<()> {
+        if self.modes.len() > MOST_MODES {
+            return Err(Error::new(format!(
+                "{} modes are given; a volume is baked for at most {MOST_MODES}",
+                self.modes.len()
+            )));
+        }
+        let points = self.points.len();
+        match self.modes.iter().position(|pose| pose.len() != points) {
+            None => Ok(()),
+            Some(mode) => Err(Error::new(format!(
+                "mode {mode} (counted from 0) has {} points, the mesh has {points}",
+                self.modes[mode].len()
+            ))),
+        }
+    }
+
+    /// The form in the device's integers.
+    fn whole(
+        &self,
+        region: Region,
+        [form, before]: &[ControlForm; 2],
+    ) -> Result<(Section, VolumeReport)> {
+        let device =
+            DeviceForm::new(form, self.rest).map_err(|error| Error::new(error.to_string()))?;
+        let (moved, _) = crate::forms::surface::centred(self.points);
+        let volume = form.volume(&moved);
+        let bytes = device.section();
+        let report = VolumeReport {
+            label: match region {
+                Region::Whole => None,
+                Region::Label(label) => Some(label),
+            },
+            volume,
+            error_estimate: (before.volume(&moved) - volume).abs(),
+            control_points: device.points.len(),
+            taps: device.weights.len(),
+            bytes: bytes.len(),
+            error_bound: device.volume_bound(device.reach(self.rest)) * self.cube(),
+            modes: None,
+        };
+        let section = Section {
+            kind: SECTION_VOLUME,
+            stage: region.number(),
+            bytes,
+        };
+        Ok((section, report))
+    }
+
+    /// The form's volume as a polynomial of modes.
+    fn by_modes(&self, region: Region, form: &ControlForm) -> (Section, ModesReport) {
+        let volume = ModeVolume::new(form, self.points, self.modes);
+        let device = DeviceModes::new(&volume, self.format.fraction_bits);
+        let bytes = device.section();
+        let report = ModesReport {
+            modes: device.modes,
+            coefficients: device.coefficients.len(),
+            bytes: bytes.len(),
+            error_bound: device.volume_bound(1.0) * self.cube(),
+        };
+        let section = Section {
+            kind: SECTION_VOLUME_MODES,
+            stage: region.number(),
+            bytes,
+        };
+        (section, report)
+    }
+
+    /// A cube of the coordinates' last place, in cubes of the unit.
+    fn cube(&self) -> f64 {
+        0.5_f64.powi(3 * self.format.fraction_bits as i32)
+    }
+}
+
+/// The form of a cage's region, and one that it should agree with.
+pub(super) fn of_cage(
     cage: &SolidMesh,
-    boundary: BoundaryRule,
-    format: Format,
-    rest: &[[i32; 3]],
-) -> Result<(Section, VolumeReport)> {
-    let scheme = match boundary {
-        BoundaryRule::Loop => Scheme::Loop,
-        BoundaryRule::LoopWarren => Scheme::LoopWarren,
-        _ => {
+    options: &Options,
+    region: Region,
+) -> Result<[ControlForm; 2]> {
+    match region {
+        Region::Label(label) => {
+            let rules = region::Rules {
+                scheme: options.scheme,
+                diagonals: options.diagonals.as_ref(),
+                boundary: options.boundary,
+            };
+            region::forms(cage, rules, label)
+        }
+        Region::Whole => {
+            let scheme = match options.boundary {
+                BoundaryRule::Loop => Scheme::Loop,
+                BoundaryRule::LoopWarren => Scheme::LoopWarren,
+                _ => {
+                    return Err(Error::new(
+                        "the enclosed volume of this boundary rule has no form",
+                    )
+                    .advise("bake --volume with --boundary loop or loop-warren"));
+                }
+            };
+            let level = Level::new(cage)?;
+            level.require_bare_boundary()?;
+            let faces = level.boundary().iter().map(|face| face.to_vec());
+            let surface = Enclosure::new(&faces.collect::<Vec<_>>(), &cage.features)?;
+            surface.control_forms(scheme)
+        }
+    }
+}
+
+/// The form of what a control mesh's limit surface encloses, and one that it should agree with.
+pub(super) fn of_surface(
+    mesh: &SurfaceMesh,
+    scheme: SurfaceScheme,
+    region: Region,
+) -> Result<[ControlForm; 2]> {
+    if region != Region::Whole {
+        return Err(
+            Error::new("a surface has no labelled regions").advise("give --volume without a label")
+        );
+    }
+    let scheme = match scheme {
+        SurfaceScheme::Loop => Scheme::Loop,
+        SurfaceScheme::LoopWarren => Scheme::LoopWarren,
+        SurfaceScheme::CatmullClark => Scheme::CatmullClark,
+        SurfaceScheme::DooSabin => Scheme::DooSabin,
+        SurfaceScheme::Sqrt3 | SurfaceScheme::Butterfly | SurfaceScheme::ButterflyModified => {
             return Err(
-                Error::new("the enclosed volume of this boundary rule has no form")
-                    .advise("bake --volume with --boundary loop or loop-warren"),
+                Error::new("the volume that surfaces of this scheme enclose has no form").advise(
+                    "leave --volume out, or take loop, loop-warren, catmull-clark or doo-sabin",
+                ),
             );
         }
     };
-    let level = Level::new(cage)?;
-    level.require_bare_boundary()?;
-    let faces = level.boundary().iter().map(|face| face.to_vec());
-    let surface = Enclosure::new(&faces.collect::<Vec<_>>(), &cage.features)?;
-    let [form, before] = surface.control_forms(scheme)?;
-    let device = DeviceForm::new(&form, rest).map_err(|error| Error::new(error.to_string()))?;
-    let (moved, _) = crate::forms::surface::centred(&cage.points);
-    let volume = form.volume(&moved);
-    let cube = 0.5_f64.powi(3 * format.fraction_bits as i32);
-    let bytes = device.section();
-    let report = VolumeReport {
-        volume,
-        error_estimate: (before.volume(&moved) - volume).abs(),
-        control_points: device.points.len(),
-        taps: device.weights.len(),
-        bytes: bytes.len(),
-        error_bound: device.volume_bound(device.reach(rest)) * cube,
-    };
-    let section = Section {
-        kind: SECTION_VOLUME,
-        stage: 0,
-        bytes,
-    };
-    Ok((section, report))
+    Enclosure::new(&mesh.faces, &mesh.features)?.control_forms(scheme)
 }

@@ -131,3 +131,45 @@ pub fn degenerate_cube(levels: u32) -> Shape {
     }
     shape
 }
+
+/// The surface of the tetrahedron with the corners 0 and the three units, each face cut into side^2
+/// triangles, whose vertices were moved to the nearest of its corners (halfway: the first).
+pub fn degenerate_tetrahedron(side: i64) -> Shape {
+    let mut places: Vec<[i64; 4]> = Vec::new();
+    let mut faces = Vec::new();
+    // Outward faces of the tetrahedron, by corners.
+    for corners in [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] {
+        let mut vertex = |i: i64, j: i64| {
+            let mut place = [0; 4];
+            for (corner, weight) in corners.into_iter().zip([side - i - j, i, j]) {
+                place[corner] = weight;
+            }
+            let found = places.iter().position(|own| *own == place);
+            let index = found.unwrap_or_else(|| {
+                places.push(place);
+                places.len() - 1
+            });
+            u32::try_from(index).unwrap()
+        };
+        for i in 0..side {
+            for j in 0..side - i {
+                faces.push(vec![vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)]);
+                if i + j + 1 < side {
+                    faces.push(vec![
+                        vertex(i + 1, j),
+                        vertex(i + 1, j + 1),
+                        vertex(i, j + 1),
+                    ]);
+                }
+            }
+        }
+    }
+    let nearest = |place: &[i64; 4]| {
+        let corner = (0..4).rev().max_by_key(|&corner| place[corner]);
+        [1, 2, 3].map(|k| i64::from(corner == Some(k)))
+    };
+    Shape {
+        points: places.iter().map(nearest).collect(),
+        faces,
+    }
+}

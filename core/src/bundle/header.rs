@@ -102,6 +102,9 @@ pub const SECTION_MODEL_POINTS: u32 = 7;
 /// [`Section::kind`]: the form of an enclosed volume; [`Section::stage`] is the region, 0 for the whole
 /// boundary.
 pub const SECTION_VOLUME: u32 = 8;
+/// [`Section::kind`]: an enclosed volume as a cubic polynomial of modes; [`Section::stage`] as in
+/// [`SECTION_VOLUME`].
+pub const SECTION_VOLUME_MODES: u32 = 9;
 
 /// An entry of the section table, which follows the header: 16 bytes.
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]

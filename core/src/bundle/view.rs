@@ -8,13 +8,14 @@ use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, RIM_FIXED, RIM_SPLINE,
     SCHEME_BOX_SPLINE_AVERAGED, SCHEME_BUTTERFLY_MODIFIED, SCHEME_LOOP, SCHEME_TET_OCT,
-    SECTION_MODEL_POINTS, SECTION_REST_CAGE, SECTION_VOLUME, Section, VERSION,
+    SECTION_MODEL_POINTS, SECTION_REST_CAGE, SECTION_VOLUME, SECTION_VOLUME_MODES, Section,
+    VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
 use crate::coord::Coordinate;
 use crate::deform::{CompactTable, Table};
-use crate::enclosed::VolumeForm;
+use crate::enclosed::{VolumeForm, VolumeModes};
 
 /// A bundle that has been proved sound, still where it lay.
 #[derive(Clone, Copy, Debug)]
@@ -174,8 +175,8 @@ impl<'a> Bundle<'a> {
         ])
     }
 
-    /// The form of the volume that a region encloses, 0 for the whole boundary; `None` if none was
-    /// baked. It is proved sound here, not when the bundle is opened.
+    /// The form of the volume that a region encloses; `None` if none was baked. The region is 0 for
+    /// the whole boundary, else the label of its cells, a negative one in two's complement. It is proved sound here, not when the bundle is opened.
     ///
     /// # Errors
     ///
@@ -190,6 +191,25 @@ impl<'a> Bundle<'a> {
             return Ok(None);
         };
         VolumeForm::from_section(bytes, self.rest_cage.len())
+            .map(Some)
+            .map_err(BundleError::Volume)
+    }
+
+    /// The volume of a region, named as in [`Bundle::volume_form`], as a cubic polynomial of the modes
+    /// that were baked; `None` if there are none. It is proved sound here.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bundle::volume_form`].
+    pub fn volume_modes<C: Coordinate>(
+        &self,
+        region: u32,
+    ) -> Result<Option<VolumeModes<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_VOLUME_MODES, region)? else {
+            return Ok(None);
+        };
+        VolumeModes::from_section(bytes)
             .map(Some)
             .map_err(BundleError::Volume)
     }

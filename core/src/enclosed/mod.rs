@@ -37,4 +37,4 @@ mod section;
 pub use error::EnclosedError;
 pub use form::{Enclosed, GRADIENT_LIMIT, VolumeForm, VolumeFormParts, WEIGHT_LIMIT};
 pub use modes::{MODE_WEIGHT_LIMIT, VolumeModes};
-pub use section::VolumeRecord;
+pub use section::{VolumeModesRecord, VolumeRecord};

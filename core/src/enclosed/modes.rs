@@ -18,6 +18,7 @@ const SHIFT: u32 = 31;
 pub struct VolumeModes<'a> {
     modes: usize,
     coefficients: &'a [i32],
+    exponent: i32,
 }
 
 impl<'a> VolumeModes<'a> {
@@ -54,7 +55,27 @@ impl<'a> VolumeModes<'a> {
         Ok(Self {
             modes: usize::from(modes),
             coefficients,
+            exponent: 0,
         })
+    }
+
+    /// The same polynomial with coefficients that count `2^exponent` cubes of the coordinates' last
+    /// place. It enters units only.
+    #[must_use]
+    pub const fn with_exponent(self, exponent: i32) -> Self {
+        Self { exponent, ..self }
+    }
+
+    /// A volume's unit is `2^` this of cubes of the coordinates' last place.
+    #[must_use]
+    pub fn volume_exponent(&self) -> i64 {
+        i64::from(self.exponent).wrapping_sub(28)
+    }
+
+    /// The unit of a derivative by an amplitude is `2^` this of cubes of the coordinates' last place.
+    #[must_use]
+    pub fn gradient_exponent(&self) -> i64 {
+        i64::from(self.exponent).wrapping_sub(29)
     }
 
     /// Number of modes.

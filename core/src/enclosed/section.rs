@@ -1,4 +1,4 @@
-//! A volume form as it lies in a bundle.
+//! A volume form, and a volume by modes, as they lie in a bundle.
 
 use core::mem::size_of;
 
@@ -7,6 +7,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use super::error::EnclosedError;
 use super::form::{VolumeForm, VolumeFormParts};
+use super::modes::VolumeModes;
 
 /// The first 32 bytes of a volume form's section. Behind it lie, without a gap, the weights (`i32`
 /// for each tap), the first tap of each pair and the number of taps (`u32`), the pairs (two
@@ -70,6 +71,39 @@ impl<'a> VolumeForm<'a> {
             weight_bits: record.weight_bits.get(),
         };
         Self::new_checked(parts, control_points)
+    }
+}
+
+/// The first 16 bytes of a section of a volume by modes. Behind it lie the coefficients (`i32`).
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct VolumeModesRecord {
+    /// Modes, at most 65 535.
+    pub modes: U32,
+    /// A coefficient of one stands for `2^` this of cubes of the coordinates' last place.
+    pub exponent: I32,
+    /// Zero.
+    pub reserved: [U32; 2],
+}
+
+impl<'a> VolumeModes<'a> {
+    /// Opens a section in place, and proves what [`VolumeModes::new_checked`] proves.
+    ///
+    /// # Errors
+    ///
+    /// [`EnclosedError::Layout`] if the bytes are not as long as their record says, start on an address
+    /// that is no multiple of 4, or the record's reserved field is not zero; else those of
+    /// [`VolumeModes::new_checked`].
+    pub fn from_section(bytes: &'a [u8]) -> Result<Self, EnclosedError> {
+        let layout = EnclosedError::Layout { place: 0 };
+        let (record, rest) = VolumeModesRecord::ref_from_prefix(bytes).map_err(|_| layout)?;
+        let modes = u16::try_from(record.modes.get()).map_err(|_| layout)?;
+        if record.reserved.iter().any(|field| field.get() != 0) {
+            return Err(layout);
+        }
+        let coefficients = <[i32]>::ref_from_bytes(rest).map_err(|_| layout)?;
+        Self::new_checked(modes, coefficients)
+            .map(|modes| modes.with_exponent(record.exponent.get()))
     }
 }
 
