@@ -133,11 +133,16 @@ pub fn require_cage(bundle: &Bundle<'_>, mesh: &SolidMesh) -> Result<()> {
     if cage_checksum(mesh.points.len(), &mesh.cells) == bundle.header().cage_checksum.get() {
         return Ok(());
     }
+    let control_points = bundle.rest_cage().len();
+    let difference = match mesh.points.len() == control_points {
+        true => ": its cells are others, or in another order",
+        false => "",
+    };
     Err(Error::new(format!(
-        "the mesh ({} vertices, {} cells) has not the connectivity of the cage that the bundle was baked from ({} vertices)",
-        mesh.points.len(),
-        mesh.cells.len(),
-        bundle.rest_cage().len()
+        "the mesh ({}, {}) has not the connectivity of the cage that the bundle was baked from ({}){difference}",
+        count(mesh.points.len(), "vertex", "vertices"),
+        count(mesh.cells.len(), "cell", "cells"),
+        count(control_points, "vertex", "vertices"),
     ))
     .advise("a pose is the cage itself with its vertices moved: same vertices, same cells, same order"))
 }

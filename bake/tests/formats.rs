@@ -334,7 +334,7 @@ fn tetgen_errors_name_the_file() {
         (
             "5 3 2 1",
             "6 3 2 1",
-            "cage.node: expected vertex 5 of 6, found the end of the file\n  help: the file seems to be cut off; write it again",
+            "cage.node, line 8: expected vertex 5 (counted from 0) of 6, found the end of the file\n  help: the file seems to be cut off; write it again",
         ),
         (
             "3 0 2 0",
@@ -374,7 +374,7 @@ fn tetgen_errors_name_the_file() {
         (
             "2 4 1",
             "3 4 1",
-            "cage.ele: expected tetrahedron 2 of 3, found the end of the file\n  help: the file seems to be cut off; write it again",
+            "cage.ele, line 3: expected tetrahedron 2 (counted from 0) of 3, found the end of the file\n  help: the file seems to be cut off; write it again",
         ),
         (
             "3 2 5 2",
@@ -688,12 +688,12 @@ fn ply_errors() {
         (
             "3 0 1 2",
             "3 0 1 3",
-            "a face names vertex 3, but there are 3 vertices",
+            "line 16: expected a vertex of a face, 0 to 2, found 3",
         ),
         (
             "3 0 1 2",
             "3 0 -1 2",
-            "line 16: expected a vertex of a face, found -1",
+            "line 16: expected a vertex of a face, 0 to 2, found -1",
         ),
         (
             "end_header",
@@ -837,7 +837,7 @@ fn off_keeps_everything_but_coordinates() {
             let error = broken(off::read, OFF, from, to);
             assert_eq!(
                 error,
-                "line 7: expected face 0 of 1, found the end of the file\n  help: the file seems to be cut off; write it again"
+                "line 7: expected face 0 (counted from 0) of 1, found the end of the file\n  help: the file seems to be cut off; write it again"
             );
             continue;
         } else {

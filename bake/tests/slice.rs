@@ -117,7 +117,7 @@ fn mistakes_are_answered() {
         ),
         (
             ["--plane", "0,0,1,1", "--channel", short.to_str().unwrap()],
-            "short.txt: there are 3 values, but the mesh has 147 vertices",
+            "short.txt: expected a value for each of 147 vertices, found 3",
         ),
         (
             ["--plane", "0,0,1,1", "--channel", words.to_str().unwrap()],

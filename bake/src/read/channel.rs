@@ -27,7 +27,7 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Vec<f64>> {
     }
     if values.len() != vertices {
         return Err(Error::new(format!(
-            "there are {} values, but the mesh has {vertices} vertices",
+            "expected a value for each of {vertices} vertices, found {}",
             values.len()
         ))
         .advise("give one number for each vertex, in the order of the mesh file"));

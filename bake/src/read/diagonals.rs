@@ -6,7 +6,7 @@
 //! skipped.
 
 use super::words::shown;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, count};
 use crate::mesh::Cells;
 use crate::refine::DiagonalLists;
 use std::io::Write;
@@ -38,10 +38,10 @@ pub fn read(bytes: &[u8], cells: &Cells) -> Result<DiagonalLists> {
     }
     if diagonals.len() != cells.len() {
         return Err(Error::new(format!(
-            "there are {} major diagonals, but the mesh has {} tetrahedra and {} octahedra",
-            diagonals.len(),
-            cells.tetrahedra.len(),
-            cells.octahedra.len()
+            "expected a major diagonal for each of {} and {}, found {}",
+            count(cells.tetrahedra.len(), "tetrahedron", "tetrahedra"),
+            count(cells.octahedra.len(), "octahedron", "octahedra"),
+            diagonals.len()
         ))
         .advise("give one number for each cell, tetrahedra first"));
     }

@@ -6,7 +6,7 @@
 //! lines and everything after `#` are skipped.
 
 use super::words::shown;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, count};
 use crate::mesh::{Features, Vertex};
 
 /// Reads a feature file for a mesh of so many vertices.
@@ -52,9 +52,9 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
             }
             [word, ..] => {
                 return Err(located(Error::new(format!(
-                    "expected `crease A B`, `crease-face A B C`, `sheet A B C` or `corner A`, found \"{}\" with {} words after it",
+                    "expected `crease A B`, `crease-face A B C`, `sheet A B C` or `corner A`, found \"{}\" with {} after it",
                     shown(word),
-                    words.len() - 1
+                    count(words.len() - 1, "word", "words")
                 ))));
             }
         }

@@ -45,6 +45,14 @@ pub fn extension(file: &Path) -> String {
         .to_ascii_lowercase()
 }
 
+/// The error for a file whose extension tells of no format that holds `what`.
+fn no_reader(what: &str, extension: &str) -> Error {
+    Error::new(match extension {
+        "" => format!("the name has no extension, which tells the format of {what}"),
+        other => format!("no reader of {what} for \".{other}\" files"),
+    })
+}
+
 /// The extensions of the files that [`solid`] reads.
 pub const SOLID_EXTENSIONS: [&str; 6] = ["msh", "vtu", "vtk", "mesh", "node", "ele"];
 
@@ -61,9 +69,7 @@ pub fn solid(file: &Path) -> Result<SolidMesh> {
             return tetgen::read((&node, &bytes(&node)?), (&ele, &bytes(&ele)?));
         }
         other => {
-            return Err(Error::new(format!(
-                "no reader of solid meshes for \".{other}\" files"
-            ))
+            return Err(no_reader("solid meshes", other)
             .advise("solid meshes are read from Gmsh .msh (2.2 and 4.1), VTK .vtu and .vtk, Medit .mesh and TetGen .node with .ele")
             .in_file(file));
         }
@@ -128,7 +134,7 @@ pub fn surface(file: &Path) -> Result<SurfaceMesh> {
         "stl" => |bytes: &[u8]| stl::read(bytes).map(SurfaceMesh::from),
         other => {
             return Err(
-                Error::new(format!("no reader of control meshes for \".{other}\" files"))
+                no_reader("control meshes", other)
                     .advise("control meshes of surfaces are read from .obj, .ply, .stl and .off; for a cage of cells choose a scheme of solids")
                     .in_file(file),
             );
@@ -145,11 +151,9 @@ pub fn model(file: &Path) -> Result<Model> {
         "stl" => stl::read,
         "off" => off::read,
         other => {
-            return Err(
-                Error::new(format!("no reader of models for \".{other}\" files"))
-                    .advise("models are read from .obj, .ply, .stl and .off")
-                    .in_file(file),
-            );
+            return Err(no_reader("models", other)
+                .advise("models are read from .obj, .ply, .stl and .off")
+                .in_file(file));
         }
     };
     reader(&bytes(file)?).map_err(|error| error.in_file(file))

@@ -165,8 +165,11 @@ pub fn numbered_meshes(directory: &Path) -> Result<Vec<(u64, PathBuf)>> {
         Error::new(format!("the directory cannot be read: {error}")).in_file(directory)
     };
     let mut found: BTreeMap<u64, PathBuf> = BTreeMap::new();
-    for entry in std::fs::read_dir(directory).map_err(cannot)? {
-        let path = entry.map_err(cannot)?.path();
+    let entries = std::fs::read_dir(directory).map_err(cannot)?;
+    let paths = entries.map(|entry| entry.map(|entry| entry.path()));
+    let mut paths: Vec<PathBuf> = paths.collect::<std::io::Result<_>>().map_err(cannot)?;
+    paths.sort();
+    for path in paths {
         let extension = super::extension(&path);
         // A TetGen pose has two files and is found by one of them.
         if extension == "ele" || !super::SOLID_EXTENSIONS.contains(&extension.as_str()) {

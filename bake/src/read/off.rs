@@ -47,7 +47,8 @@ pub fn read(bytes: &[u8]) -> Result<Model> {
     let [vertices, faces] = header(&mut lines)?;
     let mut model = Model::new(bytes);
     for vertex in 0..vertices {
-        let (words, line) = lines.next(&format!("vertex {vertex} of {vertices}"))?;
+        let (words, line) =
+            lines.next(&format!("vertex {vertex} (counted from 0) of {vertices}"))?;
         let [x, y, z, ..] = words.as_slice() else {
             return Err(Error::new(format!(
                 "expected three coordinates of a vertex, found {}",
@@ -63,7 +64,7 @@ pub fn read(bytes: &[u8]) -> Result<Model> {
         model.add_point(point, span_of(&words[..3]));
     }
     for face in 0..faces {
-        let (words, line) = lines.next(&format!("face {face} of {faces}"))?;
+        let (words, line) = lines.next(&format!("face {face} (counted from 0) of {faces}"))?;
         let corners = corners(&words, vertices).map_err(|error| error.at_line(line))?;
         model.faces.push(corners);
     }

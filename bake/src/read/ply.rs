@@ -49,7 +49,8 @@ pub fn read(bytes: &[u8]) -> Result<Model> {
     let (encoding, elements) = header(&mut words)?;
     let mut model = Model::new(bytes);
     declare_doubles(&elements, &mut model)?;
-    let mut is_face_seen = false;
+    let of_vertices = elements.iter().find(|element| element.name == "vertex");
+    let vertices = of_vertices.map_or(0, |element| element.number);
     // However many there are of an element without properties, they take no bytes.
     let listed = elements
         .iter()
@@ -58,10 +59,7 @@ pub fn read(bytes: &[u8]) -> Result<Model> {
         for _ in 0..element.number {
             match element.name.as_str() {
                 "vertex" => vertex(&mut words, encoding, element, &mut model)?,
-                "face" => {
-                    is_face_seen = true;
-                    face(&mut words, encoding, element, &mut model)?;
-                }
+                "face" => face(&mut words, encoding, element, vertices, &mut model)?,
                 _ => {
                     for property in &element.properties {
                         values(&mut words, encoding, property)?;
@@ -72,18 +70,6 @@ pub fn read(bytes: &[u8]) -> Result<Model> {
     }
     if model.points.is_empty() {
         return Err(Error::new("the model has no vertices"));
-    }
-    let vertices = model.points.len();
-    if is_face_seen
-        && let Some(bad) = model
-            .faces
-            .iter()
-            .flatten()
-            .find(|vertex| usize::try_from(**vertex).is_ok_and(|vertex| vertex >= vertices))
-    {
-        return Err(Error::new(format!(
-            "a face names vertex {bad}, but there are {vertices} vertices"
-        )));
     }
     Ok(model)
 }
@@ -300,6 +286,7 @@ fn face(
     words: &mut Words<'_>,
     encoding: Encoding,
     element: &Element,
+    vertices: usize,
     model: &mut Model,
 ) -> Result<()> {
     for property in &element.properties {
@@ -314,11 +301,14 @@ fn face(
             )));
         }
         let corner = |value: &f64| {
-            let is_index = *value >= 0.0 && *value < f64::from(u32::MAX) && value.fract() == 0.0;
+            let is_index = *value >= 0.0 && *value < vertices as f64 && value.fract() == 0.0;
             if is_index {
                 Ok(*value as u32)
             } else {
-                Err(words.error(format!("expected a vertex of a face, found {value}")))
+                Err(words.error(format!(
+                    "expected a vertex of a face, 0 to {}, found {value}",
+                    vertices.saturating_sub(1)
+                )))
             }
         };
         let corners: Result<Vec<u32>> = found.iter().map(corner).collect();

@@ -16,11 +16,9 @@ pub fn read(file: &Path) -> Result<Vec<Point>> {
     match super::extension(file).as_str() {
         "csv" => read_csv(&super::bytes(file)?).map_err(|error| error.in_file(file)),
         "obj" | "ply" | "stl" | "off" => super::model(file).map(|model| model.points),
-        other => Err(
-            Error::new(format!("no reader of points for \".{other}\" files"))
-                .advise("points are read from .csv (columns x, y, z), .obj, .ply, .stl and .off")
-                .in_file(file),
-        ),
+        other => Err(super::no_reader("points", other)
+            .advise("points are read from .csv (columns x, y, z), .obj, .ply, .stl and .off")
+            .in_file(file)),
     }
 }
 

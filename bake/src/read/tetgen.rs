@@ -22,6 +22,8 @@ pub fn read(node: (&Path, &[u8]), ele: (&Path, &[u8])) -> Result<SolidMesh> {
 /// The lines of a file that hold something, each with its number and its words.
 struct Lines<'a> {
     lines: std::iter::Enumerate<std::str::Lines<'a>>,
+    /// Number of the line that was looked at last.
+    last: usize,
 }
 
 struct Line<'a> {
@@ -36,11 +38,13 @@ impl<'a> Lines<'a> {
         })?;
         Ok(Self {
             lines: text.lines().enumerate(),
+            last: 1,
         })
     }
 
     fn next(&mut self, expected: &str) -> Result<Line<'a>> {
         for (index, line) in self.lines.by_ref() {
+            self.last = index + 1;
             let content = line.split('#').next().unwrap_or("");
             if !content.trim().is_empty() {
                 return Ok(Line {
@@ -51,6 +55,7 @@ impl<'a> Lines<'a> {
         }
         Err(
             Error::new(format!("expected {expected}, found the end of the file"))
+                .at_line(self.last)
                 .advise("the file seems to be cut off; write it again"),
         )
     }
@@ -97,7 +102,7 @@ fn vertices(bytes: &[u8], mesh: &mut SolidMesh) -> Result<i64> {
     let mut channels: Vec<Channel> = Vec::new();
     let mut first = 0;
     for vertex in 0..i64::from(number) {
-        let mut line = lines.next(&format!("vertex {vertex} of {number}"))?;
+        let mut line = lines.next(&format!("vertex {vertex} (counted from 0) of {number}"))?;
         let index: i64 = line.number("the index of a vertex")?;
         if vertex == 0 {
             first = index;
@@ -150,7 +155,7 @@ fn tetrahedra(bytes: &[u8], first: i64, mesh: &mut SolidMesh) -> Result<()> {
     }
     let attributes: usize = header.number("the number of attributes").unwrap_or(0);
     for cell in 0..number {
-        let mut line = lines.next(&format!("tetrahedron {cell} of {number}"))?;
+        let mut line = lines.next(&format!("tetrahedron {cell} (counted from 0) of {number}"))?;
         line.number::<i64>("the index of a tetrahedron")?;
         let mut corners = [0; 4];
         for corner in &mut corners {

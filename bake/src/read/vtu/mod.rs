@@ -19,6 +19,11 @@ use roxmltree::{Document, Node};
 
 /// Reads a mesh from the bytes of a `.vtu` file.
 pub fn read(bytes: &[u8]) -> Result<SolidMesh> {
+    if bytes.starts_with(b"# vtk DataFile") {
+        return Err(Error::new("expected XML, found a legacy VTK file")
+            .at_line(1)
+            .advise("files of the legacy format are named .vtk"));
+    }
     let (xml, appended) = split_appended(bytes)?;
     let document = Document::parse(&xml).map_err(|error| {
         let line = match error {
