@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Folder, data, model, octruss};
+use common::{Folder, data, model};
 use octruss_bake::check;
 use octruss_bake::error::Result;
 use octruss_bake::geometry::tetrahedron_volume_6;
@@ -478,10 +478,11 @@ fn vtk_errors() {
     }
 }
 
-/// The finger's cage and skin through every pair of formats: the same bundle, to the byte. STL
-/// lists corners in another order and welds them, so it is held to itself.
+/// The finger's cage and skin, which have coordinates of many digits, through every format that is
+/// written or has words: what is read is the same to the last bit. (The same bundle from every pair
+/// of formats: `same_bundle`.)
 #[test]
-fn the_same_bundle_from_every_pair_of_formats() {
+fn the_finger_comes_back_from_every_format() {
     let folder = Folder::new();
     let cage = read::solid(&model("finger.msh")).unwrap();
     let skin = read::model(&model("finger.obj")).unwrap();
@@ -495,50 +496,22 @@ fn the_same_bundle_from_every_pair_of_formats() {
     let (node, ele) = tetgen_texts(&cage);
     folder.write("cage.node", node);
     folder.write("cage.ele", ele);
-    std::fs::copy(model("finger.msh"), folder.path("cage.msh")).unwrap();
+    for name in ["cage.vtu", "cage.vtk", "cage.mesh", "cage.ele", "cage.node"] {
+        let read = read::solid(&folder.path(name)).unwrap();
+        assert!(
+            read.points == cage.points && read.cells == cage.cells,
+            "{name}"
+        );
+    }
     for extension in write::SURFACE_EXTENSIONS {
         let mut bytes = Vec::new();
         write::surface(extension, &skin.points, &faces, &mut bytes).unwrap();
-        folder.write(&format!("skin.{extension}"), bytes);
-    }
-    let features: String = cage
-        .features
-        .creases
-        .iter()
-        .map(|[a, b]| format!("crease {a} {b}\n"))
-        .chain(
-            cage.features
-                .corners
-                .iter()
-                .map(|corner| format!("corner {corner}\n")),
-        )
-        .collect();
-    let features = folder.write("features.txt", features);
-    let bake = |cage: &str, skin: &str| {
-        octruss()
-            .args(["bake", "--levels", "1", "--random-poses", "0", "--features"])
-            .arg(&features)
-            .arg(folder.path(cage))
-            .arg("--model")
-            .arg(folder.path(skin))
-            .arg("-o")
-            .arg(folder.path("out.oct"))
-            .assert()
-            .success();
-        folder.read("out.oct")
-    };
-    let expected = bake("cage.msh", "skin.obj");
-    for cage in [
-        "cage.msh",
-        "cage.vtu",
-        "cage.vtk",
-        "cage.mesh",
-        "cage.ele",
-        "cage.node",
-    ] {
-        for skin in ["skin.obj", "skin.ply", "skin.off"] {
-            assert!(bake(cage, skin) == expected, "{cage} {skin}");
-        }
+        let file = folder.write(&format!("skin.{extension}"), bytes);
+        let read = read::model(&file).unwrap();
+        assert!(
+            read.points == skin.points && read.faces == skin.faces,
+            "{extension}"
+        );
     }
 }
 
