@@ -148,9 +148,9 @@ fn refinement_and_translation_change_nothing() {
     }
 }
 
-/// The volume of a polyhedron: each face a fan of triangles round the mean of its corners.
-fn polyhedron_volume(mesh: &ClosedMesh, points: &[[f64; 3]]) -> f64 {
-    let mut total = 0.0;
+/// The triangles of a polyhedron: each face a fan round the mean of its corners.
+fn triangles(mesh: &ClosedMesh, points: &[[f64; 3]]) -> Vec<[[f64; 3]; 3]> {
+    let mut triangles = Vec::new();
     for face in 0..mesh.faces() {
         let corners = mesh
             .face_vertices(face)
@@ -159,20 +159,64 @@ fn polyhedron_volume(mesh: &ClosedMesh, points: &[[f64; 3]]) -> f64 {
         let scale = 1.0 / f64::from(u32::try_from(corners.len()).unwrap());
         let centre =
             [0, 1, 2].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() * scale);
-        for (place, [ax, ay, az]) in corners.iter().enumerate() {
-            let [bx, by, bz] = corners[(place + 1) % corners.len()];
-            let [cx, cy, cz] = centre;
-            total += cx * (ay * bz - az * by) + cy * (az * bx - ax * bz) + cz * (ax * by - ay * bx);
+        for (place, corner) in corners.iter().enumerate() {
+            triangles.push([*corner, corners[(place + 1) % corners.len()], centre]);
         }
     }
-    total / 6.0
+    triangles
+}
+
+fn determinant([[ax, ay, az], [bx, by, bz], [cx, cy, cz]]: [[f64; 3]; 3]) -> f64 {
+    cx * (ay * bz - az * by) + cy * (az * bx - ax * bz) + cz * (ax * by - ay * bx)
+}
+
+/// The volume of a polyhedron.
+fn polyhedron_volume(mesh: &ClosedMesh, points: &[[f64; 3]]) -> f64 {
+    let triangles = triangles(mesh, points).into_iter();
+    triangles.map(determinant).sum::<f64>() / 6.0
+}
+
+/// Centroid and inertia tensor of a polyhedron, nine numbers: over a tetrahedron with one corner in
+/// the origin the mean of `x_i x_j` is `(sum of p_i p_j + s_i s_j) / 20`, `s` the sum of its corners `p`.
+fn polyhedron_moments(mesh: &ClosedMesh, points: &[[f64; 3]]) -> Vec<f64> {
+    let (mut volume, mut first, mut second) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
+    for corners in triangles(mesh, points) {
+        let own = determinant(corners) / 6.0;
+        let sum = [0, 1, 2].map(|i| corners.iter().map(|corner| corner[i]).sum::<f64>());
+        volume += own;
+        for i in 0..3 {
+            first[i] += own * sum[i] / 4.0;
+            for j in 0..3 {
+                let products = corners.iter().map(|corner| corner[i] * corner[j]);
+                second[i][j] += own * (products.sum::<f64>() + sum[i] * sum[j]) / 20.0;
+            }
+        }
+    }
+    let centroid = first.map(|x| x / volume);
+    let central = |i: usize, j: usize| second[i][j] - volume * centroid[i] * centroid[j];
+    let trace = (0..3).map(|i| central(i, i)).sum::<f64>();
+    let mut numbers = centroid.to_vec();
+    for [i, j] in [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]] {
+        numbers.push(if i == j { trace } else { 0.0 } - central(i, j));
+    }
+    numbers
 }
 
 /// Polyhedra of the refined mesh, level by level.
 fn polyhedron_volumes(scheme: Scheme, shape: &Shape, levels: usize) -> Vec<f64> {
+    polyhedra(scheme, shape, levels, polyhedron_volume)
+}
+
+/// A figure of the polyhedra of the refined mesh, level by level.
+fn polyhedra<T>(
+    scheme: Scheme,
+    shape: &Shape,
+    levels: usize,
+    figure: impl Fn(&ClosedMesh, &[[f64; 3]]) -> T,
+) -> Vec<T> {
     let mut connectivity = mesh(shape);
     let mut points = shape.real();
-    let mut volumes = Vec::new();
+    let mut figures = Vec::new();
     for _ in 0..levels {
         let fine = scheme.refine(&connectivity);
         let rows = scheme.rows::<f64>(&connectivity, &fine).unwrap();
@@ -181,9 +225,9 @@ fn polyhedron_volumes(scheme: Scheme, shape: &Shape, levels: usize) -> Vec<f64> 
             .map(|row| [0, 1, 2].map(|axis| row.iter().map(|(v, w)| w * points[*v][axis]).sum()))
             .collect();
         connectivity = fine;
-        volumes.push(polyhedron_volume(&connectivity, &points));
+        figures.push(figure(&connectivity, &points));
     }
-    volumes
+    figures
 }
 
 /// The polyhedra's error falls by 4 a level, and their extrapolation meets the form's volume within
@@ -213,6 +257,32 @@ fn polyhedra_of_every_genus_converge_to_the_volume() {
                 "{scheme}: {volume} {last} +- {error}"
             );
             assert!(error < 2e-5 * volume, "{scheme}: {error}");
+        }
+    }
+}
+
+/// Centroid and inertia of the polyhedra likewise.
+#[test]
+fn moments_of_polyhedra_converge() {
+    for shape in shapes() {
+        for scheme in Scheme::ALL {
+            let shape = fitting(scheme, shape.clone());
+            let surface = LimitSurface::<f64>::new(scheme, &mesh(&shape)).unwrap();
+            let moments = surface.moments(&shape.real()).unwrap();
+            let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = moments.inertia;
+            let [x, y, z] = moments.centroid;
+            let levels = polyhedra(scheme, &shape, 5, polyhedron_moments);
+            let [.., a, b, c] = &levels[..] else {
+                panic!("three levels")
+            };
+            for (k, want) in [x, y, z, xx, yy, zz, xy, yz, xz].into_iter().enumerate() {
+                let (before, last) = ((4.0 * b[k] - a[k]) / 3.0, (4.0 * c[k] - b[k]) / 3.0);
+                let error = (last - before).abs();
+                assert!(
+                    (last - want).abs() <= error,
+                    "{scheme} {k}: {want} {last} +- {error}"
+                );
+            }
         }
     }
 }

@@ -1,4 +1,5 @@
-// Refines an .off mesh with CGAL in double precision: SCHEME LEVELS IN OUT.
+// Refines an .off mesh with CGAL in double precision: SCHEME LEVELS IN OUT. An OUT that ends with .off
+// holds the refined mesh, any other its vertices.
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/OFF.h>
@@ -21,8 +22,10 @@ int main(int count, char **words) {
   else if (scheme == "doo-sabin") method::DooSabin_subdivision(mesh, steps);
   else if (scheme == "sqrt3") method::Sqrt3_subdivision(mesh, steps);
   else return 4;
-  std::ofstream out(words[4]);
+  const std::string name = words[4];
+  std::ofstream out(name);
   out.precision(17);
+  if (name.ends_with(".off")) return CGAL::IO::write_OFF(out, mesh) ? 0 : 5;
   for (auto vertex : mesh.vertices()) out << mesh.point(vertex) << "\n";
   return out ? 0 : 5;
 }

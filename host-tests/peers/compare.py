@@ -61,7 +61,7 @@ def build(name, header, libraries, folder):
         print(f"{name}: skipped, <{header}> is not installed")
         return None
     program = folder / name
-    command = [compiler, "-std=c++17", "-O1", "-w", str(HERE / f"{name}_peer.cpp")]
+    command = [compiler, "-std=c++20", "-O1", "-w", str(HERE / f"{name}_peer.cpp")]
     subprocess.run(command + ["-o", str(program)] + libraries, check=True)
     return program
 
