@@ -46,6 +46,10 @@
 //! | [`SECTION_ROWS`] | coordinates saturated, coordinates of displacements clamped to 16 bits, x y z of each row |
 //! | [`SECTION_DIAGONALS`] | level, then number and CRC-32 of the major diagonals (a byte each) of tetrahedra and octahedra at that level |
 //! | [`SECTION_IMPROPER_FACES`] | three corners of each face where major diagonals clash |
+//! | [`SECTION_FACES`] | level, vertices, then number of elements and CRC-32 of the faces' offsets, their corners, creases and corners at that level, and 1 after an odd number of square-root-3 steps |
+//! | [`SECTION_LIMIT`] | level, coordinates saturated so far, x y z of each limit position of that level |
+//! | [`SECTION_TRIANGLE`] | generation, corners, neighbours, x y z of the corners and of their limits |
+//! | [`SECTION_VOLUME`] | see [`volume`]; numbers of 64 bits have their low word first |
 
 pub mod apply;
 pub mod box_spline;
@@ -53,6 +57,9 @@ pub mod refine;
 mod results;
 pub mod solid;
 mod space;
+pub mod sqrt3;
+pub mod surface;
+pub mod volume;
 
 pub use results::{Results, Sink, Status};
 pub use space::Memory;
@@ -86,6 +93,16 @@ pub const APPLY: u32 = 3;
 pub const BOX_SPLINE: u32 = 4;
 /// Kind of a case: refine a box-spline solid in core's own arenas of a fixed size.
 pub const BOX_SPLINE_OWNED: u32 = 5;
+/// Kind of a case: refine a control mesh.
+pub const SURFACE: u32 = 6;
+/// Kind of a case: refine a control mesh adaptively by the square-root-3 scheme.
+pub const SQRT3_ADAPTIVE: u32 = 7;
+/// Kind of a case: take a vertex of the square-root-3 scheme several steps on at once.
+pub const SQRT3_STEPS: u32 = 8;
+/// Kind of a case: evaluate a volume form.
+pub const VOLUME: u32 = 9;
+/// Kind of a case: evaluate a volume's polynomial in modes.
+pub const VOLUME_MODES: u32 = 10;
 
 /// Tag of the section that ends a case.
 pub const SECTION_END: u32 = 0;
@@ -99,6 +116,14 @@ pub const SECTION_ROWS: u32 = 3;
 pub const SECTION_DIAGONALS: u32 = 4;
 /// Tag of a section with the faces where major diagonals clash.
 pub const SECTION_IMPROPER_FACES: u32 = 5;
+/// Tag of a section about the faces of a control mesh at a level.
+pub const SECTION_FACES: u32 = 6;
+/// Tag of a section with limit positions.
+pub const SECTION_LIMIT: u32 = 7;
+/// Tag of a section with a triangle of an adaptive mesh.
+pub const SECTION_TRIANGLE: u32 = 8;
+/// Tag of a section with volumes and gradients.
+pub const SECTION_VOLUME: u32 = 9;
 
 /// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
 ///
@@ -111,6 +136,11 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         APPLY => apply::run(words, memory.space(), results),
         BOX_SPLINE => box_spline::run(words, memory, results),
         BOX_SPLINE_OWNED => box_spline::run_owned(words, memory, results),
+        SURFACE => surface::run(words, memory, results),
+        SQRT3_ADAPTIVE => sqrt3::run_adaptive(words, memory, results),
+        SQRT3_STEPS => sqrt3::run_steps(words, results),
+        VOLUME => volume::run(words, memory.space(), results),
+        VOLUME_MODES => volume::run_modes(words, memory.space(), results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));
@@ -153,6 +183,14 @@ impl<'a> Words<'a> {
         let words: &[[u32; 3]] = self.elements(count)?;
         // The same size and alignment, so this is never refused.
         <[[i32; 3]]>::ref_from_bytes(words.as_bytes()).map_err(|_| Status::Malformed)
+    }
+
+    /// The next `count` signed numbers.
+    fn numbers(&mut self, count: usize) -> Result<&'a [i32], Status> {
+        use zerocopy::FromBytes;
+        let words: &[[u32; 1]] = self.elements(count)?;
+        // The same size and alignment, so this is never refused.
+        <[i32]>::ref_from_bytes(words.as_bytes()).map_err(|_| Status::Malformed)
     }
 
     /// Nothing may be left.

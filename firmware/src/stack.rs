@@ -30,8 +30,13 @@ pub fn bytes() -> usize {
 /// was never used: call it at the end, not in a control loop.
 #[must_use]
 pub fn bytes_never_used() -> usize {
+    bytes_never_used_within(top())
+}
+
+/// The same of the stack's end up to an address.
+fn bytes_never_used_within(end: usize) -> usize {
     let mut address = bottom();
-    while address < top() {
+    while address < end {
         // SAFETY: the address is a word of the stack's space, which the linker script keeps in
         // memory that exists and aligns to words. The read is volatile because the stack belongs
         // to nobody whom the compiler knows.
@@ -42,6 +47,12 @@ pub fn bytes_never_used() -> usize {
         address += size_of::<u32>();
     }
     address - bottom()
+}
+
+/// Whether the stack has stayed out of the red zone at its end. Takes a few hundred instructions.
+#[must_use]
+pub fn is_sound() -> bool {
+    bytes_never_used_within(bottom() + RED_ZONE_BYTES) >= RED_ZONE_BYTES
 }
 
 /// The most bytes of the stack that were in use at one time (its high-water mark).

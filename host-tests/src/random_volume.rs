@@ -43,6 +43,46 @@ impl VolumeCase {
     }
 }
 
+/// One random case of a volume as a polynomial in modes.
+#[derive(Clone, Debug)]
+pub struct ModesCase {
+    /// Coefficients of the polynomial.
+    pub coefficients: Vec<i32>,
+    /// An amplitude for each mode.
+    pub amplitudes: Vec<i32>,
+}
+
+impl ModesCase {
+    /// The case of a seed, with up to 16 modes; amplitudes are anywhere, at the ends of their range,
+    /// or at most one.
+    pub fn new(seed: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let modes = rng.random_range(0..=16_usize);
+        let count = (modes + 1) * (modes + 2) * (modes + 3) / 6;
+        let mut left = (1_i64 << 30) - 1;
+        let mut coefficients = vec![0; count];
+        for coefficient in &mut coefficients {
+            let portion = match rng.random_range(0..100) {
+                0 => left,
+                _ => rng.random_range(0..=left / 32),
+            };
+            left -= portion;
+            let sign = if rng.random_bool(0.5) { 1 } else { -1 };
+            *coefficient = i32::try_from(sign * portion).unwrap_or(i32::MIN);
+        }
+        let amplitude = |rng: &mut ChaCha8Rng| match seed % 3 {
+            0 => rng.random(),
+            1 => [i32::MIN, i32::MAX, 0][rng.random_range(0..3)],
+            _ => rng.random_range(-(1 << 30)..=1 << 30),
+        };
+        let amplitudes = (0..modes).map(|_| amplitude(&mut rng)).collect();
+        Self {
+            coefficients,
+            amplitudes,
+        }
+    }
+}
+
 fn push_taps(rng: &mut ChaCha8Rng, table: &mut VolumeTable, others: u16) {
     let mut taps = BTreeMap::new();
     if others >= 3 {

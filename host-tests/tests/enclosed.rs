@@ -6,7 +6,7 @@
 use octruss::enclosed::{
     Enclosed, EnclosedError, VolumeForm, VolumeFormParts, VolumeModes, WEIGHT_LIMIT,
 };
-use octruss_host_tests::random_volume::VolumeCase;
+use octruss_host_tests::random_volume::{ModesCase, VolumeCase};
 use octruss_host_tests::reference_volume::{self, VolumeTable};
 use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
@@ -157,32 +157,11 @@ fn the_extremes_fit() {
 #[test]
 fn modes_equal_the_reference() {
     for seed in 0..case_count() {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let modes = rng.random_range(0..=16_usize);
-        let count = (modes + 1) * (modes + 2) * (modes + 3) / 6;
-        let mut left = (1_i64 << 30) - 1;
-        let mut coefficients = vec![0; count];
-        for coefficient in &mut coefficients {
-            let portion = match rng.random_range(0..100) {
-                0 => left,
-                _ => rng.random_range(0..=left / 32),
-            };
-            left -= portion;
-            *coefficient = i32::try_from(if rng.random_bool(0.5) {
-                portion
-            } else {
-                -portion
-            })
-            .unwrap();
-        }
-        let amplitude = |rng: &mut ChaCha8Rng| match seed % 3 {
-            0 => rng.random(),
-            1 => [i32::MIN, i32::MAX, 0][rng.random_range(0..3)],
-            _ => rng.random_range(-(1 << 30)..=1 << 30),
-        };
-        let amplitudes = (0..modes)
-            .map(|_| amplitude(&mut rng))
-            .collect::<Vec<i32>>();
+        let ModesCase {
+            coefficients,
+            amplitudes,
+        } = ModesCase::new(seed);
+        let modes = amplitudes.len();
         let (volume, derivatives) = reference_volume::modes(modes, &coefficients, &amplitudes);
         let form = VolumeModes::new_checked(u16::try_from(modes).unwrap(), &coefficients).unwrap();
         assert_eq!(form.volume(&amplitudes), Ok(volume), "seed {seed}");

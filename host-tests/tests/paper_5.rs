@@ -215,6 +215,17 @@ fn multi_step_7_and_8() {
     }
 }
 
+/// `2/3 - alpha_2` is zero, so (7) gives a third of each ring vertex after any number of steps: a short
+/// fraction, exact although the powers of 9 in it outgrow 64 bits.
+#[test]
+fn valence_2_stays_exact_after_any_number_of_steps() {
+    for m in 1..100 {
+        assert_eq!(fraction(ring_weight(2, Steps::Count(m))), ratio(1, 3));
+        assert!(fraction(own_weight(2, m)).is_zero());
+    }
+    assert!(fraction(ring_weight(2, Steps::Count(0))).is_zero());
+}
+
 /// (7) and (8) against level by level in device bits, within the bound that the module states.
 #[test]
 fn multi_step_is_within_its_bound_of_level_by_level() {

@@ -110,7 +110,7 @@ fn doo_sabin_equals_the_reference() {
                     Ok(got) => got,
                     // Taking faces out can leave two fans that touch.
                     Err(MeshError::NotManifold { vertex }) => {
-                        assert!(has_two_fans(&mesh, vertex), "seed {seed}: {vertex}");
+                        assert!(mesh.has_two_fans(vertex), "seed {seed}: {vertex}");
                         break;
                     }
                     Err(error) => panic!("seed {seed}, level {level}: {error}"),
@@ -134,24 +134,6 @@ fn doo_sabin_equals_the_reference() {
         }
     }
     assert!(compared > case_count());
-}
-
-/// Faces at a vertex that do not all hang together over edges at the vertex.
-fn has_two_fans(mesh: &Polygons, vertex: u32) -> bool {
-    let at: Vec<&Vec<u32>> = mesh.faces.iter().filter(|f| f.contains(&vertex)).collect();
-    let mut reached = BTreeSet::from([0]);
-    while let Some(next) = (0..at.len()).find(|i| {
-        !reached.contains(i)
-            && reached.iter().any(|j| {
-                let share = |v: &&u32| **v != vertex && at[*j].contains(v);
-                let neighbours =
-                    |v: &u32| mesh.edges().contains_key(&[vertex.min(*v), vertex.max(*v)]);
-                at[*i].iter().filter(share).any(neighbours)
-            })
-    }) {
-        reached.insert(next);
-    }
-    reached.len() < at.len()
 }
 
 #[test]
@@ -193,7 +175,7 @@ fn sqrt3_equals_the_reference() {
             {
                 Ok(got) => got,
                 Err(MeshError::NotTrisectable { vertex }) => {
-                    assert!(mesh.odd && is_end(&mesh, vertex), "seed {seed}");
+                    assert!(mesh.odd && mesh.is_end(vertex), "seed {seed}");
                     break;
                 }
                 Err(error) => panic!("seed {seed}, level {level}: {error}"),
@@ -217,18 +199,11 @@ fn sqrt3_equals_the_reference() {
             Err(MeshError::OddBoundary) => {
                 assert!(mesh.odd && !mesh.sharp_edges().is_empty());
             }
-            Err(MeshError::NotTrisectable { vertex }) => assert!(is_end(&mesh, vertex)),
+            Err(MeshError::NotTrisectable { vertex }) => assert!(mesh.is_end(vertex)),
             Err(error) => panic!("seed {seed}: {error}"),
         }
     }
     assert!(odd_steps > 10 && limits > 100, "{odd_steps}, {limits}");
-}
-
-/// A vertex that is tagged as a corner, or at which other than two sharp edges meet.
-fn is_end(mesh: &Polygons, vertex: u32) -> bool {
-    let lines = mesh.sharp_edges();
-    let count = lines.iter().filter(|edge| edge.contains(&vertex)).count();
-    mesh.corners.contains(&vertex) || count != 2
 }
 
 /// Every triangle of an adaptive mesh is one of the uniform hierarchy, and every position is equal:

@@ -16,7 +16,7 @@ const LEVELS: &str = "2";
 const UNIT: &str = "mm";
 
 /// Random cases of `test` on each subject; `verify` takes more.
-const TEST_CASES: u32 = 300;
+const TEST_CASES: u32 = 150;
 
 /// Bakes the example, bends it on an emulated processor, checks every bit.
 pub fn demo() -> Result<(), Failure> {

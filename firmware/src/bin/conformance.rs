@@ -52,6 +52,10 @@ fn main() -> ! {
                 results.end(Status::TooLong { words: length });
             }
         }
+        if !stack::is_sound() {
+            // Statics may be overwritten, the logger's among them: the exit code says it all.
+            exit::stop(Ending::StackOverflowed)
+        }
     }
     output.flush();
     report(cases);

@@ -5,6 +5,7 @@ use core::fmt;
 use crc::Digest;
 use octruss::bundle::BundleError;
 use octruss::deform::ApplyError;
+use octruss::enclosed::EnclosedError;
 use octruss::mesh::MeshError;
 use zerocopy::IntoBytes;
 
@@ -44,6 +45,9 @@ pub enum Status {
     Apply(ApplyError),
     /// 8: the memory does not hold the arenas of this kind of case.
     Memory,
+    /// 9: the volume form is unsound or cannot be evaluated; the detail is the CRC-32 of the error's
+    /// message.
+    Enclosed(EnclosedError),
 }
 
 impl Status {
@@ -64,6 +68,7 @@ impl Status {
             Status::Bundle(error) => [6, checksum(&error), 0, 0],
             Status::Apply(error) => [7, checksum(&error), 0, 0],
             Status::Memory => [8, 0, 0, 0],
+            Status::Enclosed(error) => [9, checksum(&error), 0, 0],
         }
     }
 }

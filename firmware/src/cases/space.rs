@@ -7,7 +7,6 @@
 use core::mem::{MaybeUninit, align_of, size_of, take};
 use core::slice;
 
-use heapless::Vec;
 use octruss::mesh::{Arena, MeshError};
 
 use super::Status;
@@ -18,7 +17,7 @@ use super::Status;
 struct Unit([u8; 16]);
 
 /// Bytes of the whole block.
-const BLOCK_BYTES: usize = 104 * 1024;
+const BLOCK_BYTES: usize = 98 * 1024;
 
 /// All memory of all kinds of cases.
 pub struct Memory([MaybeUninit<Unit>; BLOCK_BYTES / size_of::<Unit>()]);
@@ -59,21 +58,29 @@ pub(super) unsafe trait Plain: 'static {}
 /// The pattern behind a buffer: no index and hardly any coordinate is made of it.
 const PATTERN: u8 = 0xa5;
 
-/// Buffers that one space can lend.
-const BUFFERS: usize = 96;
+/// What lies behind a buffer. It stands before the buffer in the block itself, so that the list of
+/// all guards takes nothing of the stack, which a device has little of.
+struct Guard<'a> {
+    bytes: &'a [u8],
+    /// The buffer's number.
+    buffer: u32,
+    /// That of the buffer lent before.
+    before: Option<&'a Guard<'a>>,
+}
+
+/// Units before a buffer, the same on every machine.
+const GUARD_UNITS: usize = 2;
 
 /// Memory that has not been lent yet.
 pub(super) struct Space<'a> {
     free: &'a mut [MaybeUninit<Unit>],
-    guards: Vec<&'a [u8], BUFFERS>,
+    /// That of the last buffer.
+    guards: Option<&'a Guard<'a>>,
 }
 
 impl<'a> Space<'a> {
     fn over(free: &'a mut [MaybeUninit<Unit>]) -> Self {
-        Space {
-            free,
-            guards: Vec::new(),
-        }
+        Space { free, guards: None }
     }
 
     /// What is free, to be lent for a while.
@@ -130,30 +137,35 @@ impl<'a> Space<'a> {
 
     /// Whether everything behind the buffers that this space lent is as it was.
     pub fn check(&self) -> Result<(), Status> {
-        let changed = |guard: &&[u8]| guard.iter().any(|byte| *byte != PATTERN);
-        match self.guards.iter().position(changed) {
-            None => Ok(()),
-            Some(buffer) => Err(Status::GuardBroken {
-                buffer: u32::try_from(buffer).unwrap_or(u32::MAX),
-            }),
+        let mut next = self.guards;
+        while let Some(guard) = next {
+            if guard.bytes.iter().any(|byte| *byte != PATTERN) {
+                let buffer = guard.buffer;
+                return Err(Status::GuardBroken { buffer });
+            }
+            next = guard.before;
         }
+        Ok(())
     }
 
     /// Bytes that a buffer could have.
     fn bytes_free(&self) -> usize {
-        let units = self.free.len().saturating_sub(1);
+        let units = self.free.len().saturating_sub(GUARD_UNITS + 1);
         units.saturating_mul(size_of::<Unit>())
     }
 
     /// Takes memory aligned for `T`, with a guard behind it; `None` if there is not enough.
     fn bytes<T>(&mut self, count: usize) -> Option<&'a mut [MaybeUninit<u8>]> {
         const { assert!(align_of::<T>() <= align_of::<Unit>()) };
-        // One unit more than needed, so that the guard has 16 bytes at least.
+        const { assert!(size_of::<Guard<'_>>() <= GUARD_UNITS * size_of::<Unit>()) };
+        const { assert!(align_of::<Guard<'_>>() <= align_of::<Unit>()) };
+        // One unit more than needed, so that the pattern has 16 bytes at least.
         let units = count.div_ceil(size_of::<Unit>()).saturating_add(1);
-        if units > self.free.len() || self.guards.is_full() {
+        if units.saturating_add(GUARD_UNITS) > self.free.len() {
             return None;
         }
-        let (own, rest) = take(&mut self.free).split_at_mut(units);
+        let (guard, rest) = take(&mut self.free).split_at_mut(GUARD_UNITS);
+        let (own, rest) = rest.split_at_mut(units);
         self.free = rest;
         // SAFETY: these are the units' own bytes, and they need no values.
         let own: &'a mut [MaybeUninit<u8>] =
@@ -163,9 +175,14 @@ impl<'a> Space<'a> {
             byte.write(PATTERN);
         }
         // SAFETY: every byte was just written.
-        let guard = unsafe { behind.assume_init_ref() };
-        // There is room: see above.
-        let _ = self.guards.push(guard);
+        let bytes = unsafe { behind.assume_init_ref() };
+        // SAFETY: the units have room for a guard and its alignment, see above, and are lent once.
+        let guard: &'a mut MaybeUninit<Guard<'a>> = unsafe { &mut *guard.as_mut_ptr().cast() };
+        self.guards = Some(guard.write(Guard {
+            bytes,
+            buffer: self.guards.map_or(0, |last| last.buffer.wrapping_add(1)),
+            before: self.guards,
+        }));
         Some(memory)
     }
 }
@@ -189,8 +206,11 @@ mod tests {
         let words = space.slice(Arena::Sums, 3, [1_i64; 3]).unwrap();
         assert_eq!(words, [[1; 3]; 3]);
         assert!(words.as_ptr().is_aligned());
-        assert_eq!(space.guards[0].as_ptr(), end);
-        assert!(space.guards.iter().all(|guard| guard.len() >= 16));
+        let last = space.guards.unwrap();
+        assert_eq!((last.buffer, last.bytes.len()), (1, 24));
+        let first = last.before.unwrap();
+        assert_eq!((first.buffer, first.bytes.as_ptr()), (0, end));
+        assert!(first.bytes.len() >= 16 && first.before.is_none());
         assert_eq!(space.check(), Ok(()));
     }
 
@@ -202,17 +222,23 @@ mod tests {
             let mut memory = Box::new(Memory::new());
             let mut space = memory.space();
             space.slice(Arena::Edges, 5, [0_u32; 3]).unwrap();
+            space.slice(Arena::Edges, 5, [0_u32; 3]).unwrap();
             space.check().unwrap();
-            space.guards[0] = changed.as_slice();
-            assert_eq!(space.check(), Err(Status::GuardBroken { buffer: 0 }));
+            let broken = super::Guard {
+                bytes: &changed,
+                buffer: 1,
+                before: space.guards,
+            };
+            space.guards = Some(&broken);
+            assert_eq!(space.check(), Err(Status::GuardBroken { buffer: 1 }));
         }
     }
 
     #[test]
     fn what_does_not_fit_is_refused_and_takes_nothing() {
         let mut memory = Box::new(Memory::new());
-        let [mut first, second] = memory.split(100);
-        // Seven units, one of them for the guard.
+        let [mut first, second] = memory.split(140);
+        // Nine units, three of them for the guard.
         assert_eq!(first.bytes_free(), 96);
         let error = first.slice(Arena::Sums, 5, [0_i64; 3]).map(|_| ());
         let expected = MeshError::ArenaTooSmall {
@@ -229,7 +255,7 @@ mod tests {
         assert_eq!(first.bytes_free(), 0);
         // Not even the guard of an empty buffer fits now.
         assert!(first.slice(Arena::Corners, 0, 0_u32).is_err());
-        assert_eq!(second.bytes_free(), super::BLOCK_BYTES - 7 * 16 - 16);
+        assert_eq!(second.bytes_free(), super::BLOCK_BYTES - (9 + 3) * 16);
     }
 
     #[test]

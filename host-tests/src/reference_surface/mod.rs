@@ -11,6 +11,7 @@ mod butterfly;
 mod catmull_clark;
 mod doo_sabin;
 mod loop_rule;
+mod multi_step;
 mod polygons;
 mod row;
 mod sqrt3;
@@ -19,6 +20,7 @@ pub use butterfly::butterfly;
 pub use catmull_clark::{catmull_clark, catmull_clark_limit};
 pub use doo_sabin::doo_sabin;
 pub use loop_rule::{Family, loop_limit, loop_rule};
+pub use multi_step::{after_steps, beside_limit};
 pub use polygons::{Border, Kind, Polygons, edge, sides};
 pub use row::{Grid, Row, WEIGHT_UNIT};
 pub use sqrt3::{sqrt3, sqrt3_limit};
@@ -58,6 +60,16 @@ pub fn apply(rows: &[Row], points: &[[i32; 3]]) -> Vec<[i32; 3]> {
     rows.iter()
         .map(|row| [value(row, 0), value(row, 1), value(row, 2)])
         .collect()
+}
+
+/// How many coordinates the masks take out of 32 bits.
+pub fn count_saturated(rows: &[Row], points: &[[i32; 3]]) -> usize {
+    let fits = |value: f64| value >= f64::from(i32::MIN) && value <= f64::from(i32::MAX);
+    let value = |row: &Row, axis: usize| row.rounded(|vertex| points[vertex as usize][axis]);
+    let values = rows
+        .iter()
+        .flat_map(|row| [0, 1, 2].map(|axis| value(row, axis)));
+    values.filter(|value| !fits(*value)).count()
 }
 
 /// The row of a vertex that is not smooth.

@@ -105,6 +105,32 @@ impl Polygons {
         found
     }
 
+    /// Whether the faces at a vertex do not all hang together over edges at the vertex.
+    pub fn has_two_fans(&self, vertex: u32) -> bool {
+        let at: Vec<&Vec<u32>> = self.faces.iter().filter(|f| f.contains(&vertex)).collect();
+        let edges = self.edges();
+        let mut reached = BTreeSet::from([0]);
+        while let Some(next) = (0..at.len()).find(|i| {
+            !reached.contains(i)
+                && reached.iter().any(|j| {
+                    let share = |v: &&u32| **v != vertex && at[*j].contains(v);
+                    let neighbours = |v: &u32| edges.contains_key(&edge(vertex, *v));
+                    at[*i].iter().filter(share).any(neighbours)
+                })
+        }) {
+            reached.insert(next);
+        }
+        reached.len() < at.len()
+    }
+
+    /// Whether a vertex is tagged as a corner, or other than two sharp edges meet there: no sharp
+    /// line runs through it.
+    pub fn is_end(&self, vertex: u32) -> bool {
+        let lines = self.sharp_edges();
+        let count = lines.iter().filter(|edge| edge.contains(&vertex)).count();
+        self.corners.contains(&vertex) || count != 2
+    }
+
     /// The rule of every vertex.
     pub fn kinds(&self, border: Border) -> Vec<Kind> {
         let edges = self.edges();

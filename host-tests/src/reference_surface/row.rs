@@ -89,12 +89,18 @@ impl Row {
         }
     }
 
-    /// `floor(value + 1/2)` of the mask on integer coordinates, exactly, saturated to 32 bits.
+    /// [`Self::rounded`], saturated to 32 bits.
+    pub fn round(&self, coordinate: impl Fn(u32) -> i32) -> i32 {
+        let value = self.rounded(coordinate);
+        value.clamp(f64::from(i32::MIN), f64::from(i32::MAX)) as i32
+    }
+
+    /// `floor(value + 1/2)` of the mask on integer coordinates, exactly.
     ///
     /// The numerators, doubled so that half the denominator is an integer, have magnitudes that add
     /// up to less than 2^34. Coordinates enter as a low limb of 16 bits and a high limb, so that
     /// both sums and all that follows are integers within 2^52.
-    pub fn round(&self, coordinate: impl Fn(u32) -> i32) -> i32 {
+    pub fn rounded(&self, coordinate: impl Fn(u32) -> i32) -> f64 {
         const LIMB: f64 = 65_536.0;
         let denominator = 2.0 * self.denominator;
         let (mut high, mut low) = (0.0, self.denominator);
@@ -106,8 +112,7 @@ impl Row {
         }
         let quotient = floor_quotient(high, denominator);
         let rest = (high - quotient * denominator) * LIMB + low;
-        let value = quotient * LIMB + floor_quotient(rest, denominator);
-        value.clamp(f64::from(i32::MIN), f64::from(i32::MAX)) as i32
+        quotient * LIMB + floor_quotient(rest, denominator)
     }
 
     /// The mask on real coordinates, to double precision.

@@ -52,12 +52,14 @@ pub fn ring_weight(valence: u32, steps: Steps) -> NeighbourWeight {
 fn exact_ring_weight(valence: u32, steps: Steps) -> Option<NeighbourWeight> {
     let a = ninths(valence)?;
     let (numerator, power) = match steps {
-        Steps::Count(count) => {
+        // At valence 2 the base of the powers is zero: one step reaches the limit, and no power of
+        // 9 may stand in the way of that short fraction.
+        Steps::Count(count) if count == 0 || a != 6 => {
             let power = 9_i64.checked_pow(count)?;
             let rest = 6_i64.checked_sub(a)?.checked_pow(count)?;
             (a.checked_mul(power.checked_sub(rest)?)?, power)
         }
-        Steps::Limit => (a, 1),
+        Steps::Count(_) | Steps::Limit => (a, 1),
     };
     let denominator = a
         .checked_add(3)?

@@ -65,6 +65,7 @@ fn applied(bundle: &BundleCase, start: usize, end: usize, form: u32) -> Expected
         }],
         coordinates: 3 * applied.points.len(),
         saturated: applied.saturated,
+        ..Expected::default()
     }
 }
 

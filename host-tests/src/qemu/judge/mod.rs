@@ -6,7 +6,10 @@
 
 mod apply;
 mod box_spline;
+mod sqrt3;
+mod surface;
 mod tet_oct;
+mod volume;
 
 use std::fmt;
 use std::path::Path;
@@ -20,6 +23,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::conformance::{Case, CaseResults, Section, on_device, on_host};
 use super::{Error, Machine};
+use surface::Scheme;
 
 /// What a group of random cases is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -30,6 +34,30 @@ pub enum Subject {
     Apply,
     /// Box-spline solids and their averaged variant, major diagonals chosen and given
     BoxSpline,
+    /// Loop's surfaces
+    Loop,
+    /// Loop's surfaces with Warren's weights
+    LoopWarren,
+    /// Loop's surfaces with the triangles' weights of the triangle/quadrilateral scheme
+    TriQuad,
+    /// Catmull and Clark's surfaces
+    CatmullClark,
+    /// Doo and Sabin's surfaces
+    DooSabin,
+    /// Square-root-3 surfaces
+    Sqrt3,
+    /// Butterfly surfaces
+    Butterfly,
+    /// Modified butterfly surfaces
+    ButterflyModified,
+    /// Square-root-3 surfaces refined where a predicate wants it
+    Sqrt3Adaptive,
+    /// Several square-root-3 steps at once
+    Sqrt3Steps,
+    /// Volume forms and their gradients
+    Volume,
+    /// Volumes as polynomials in modes, and their derivatives
+    VolumeModes,
 }
 
 impl Subject {
@@ -40,6 +68,18 @@ impl Subject {
             Subject::TetOct => tet_oct::case(seed),
             Subject::Apply => apply::case(seed),
             Subject::BoxSpline => box_spline::case(seed),
+            Subject::Loop => surface::case(Scheme::Loop, seed),
+            Subject::LoopWarren => surface::case(Scheme::LoopWarren, seed),
+            Subject::TriQuad => surface::case(Scheme::TriQuad, seed),
+            Subject::CatmullClark => surface::case(Scheme::CatmullClark, seed),
+            Subject::DooSabin => surface::case(Scheme::DooSabin, seed),
+            Subject::Sqrt3 => surface::case(Scheme::Sqrt3, seed),
+            Subject::Butterfly => surface::case(Scheme::Butterfly, seed),
+            Subject::ButterflyModified => surface::case(Scheme::ButterflyModified, seed),
+            Subject::Sqrt3Adaptive => sqrt3::adaptive(seed),
+            Subject::Sqrt3Steps => sqrt3::steps(seed),
+            Subject::Volume => volume::form(seed),
+            Subject::VolumeModes => volume::polynomial(seed),
         }
     }
 }
@@ -70,7 +110,13 @@ pub struct Expected {
     pub coordinates: usize,
     /// How many of these do not fit and must be clamped.
     pub saturated: usize,
+    /// Where the reference does not say what the sections must be but what must hold of them: a
+    /// function of the seed and the results, which returns how many numbers it compared.
+    pub examine: Option<Examine>,
 }
+
+/// Says what does not hold of the results of a seed's case, or how many numbers were compared.
+pub type Examine = fn(u32, &CaseResults) -> Result<usize, String>;
 
 impl Judged {
     fn sound(kind: u32, seed: u32, words: Vec<u32>, expected: Expected) -> Self {
@@ -156,6 +202,16 @@ impl Verdict {
         if result.status != Status::Done.words() {
             let sentence = format!("seed {seed}: status {:?}", result.status);
             self.mismatches.push(sentence);
+            return;
+        }
+        if let Some(examine) = expected.examine {
+            match examine(seed, result) {
+                Ok(compared) => self.coordinates += compared,
+                Err(fault) => {
+                    let sentence = format!("seed {seed}, against the reference: {fault}");
+                    self.mismatches.push(sentence);
+                }
+            }
             return;
         }
         let sections = result.sections.iter();

@@ -1,0 +1,244 @@
+//! Control meshes, every scheme uniformly.
+
+use octruss_firmware::cases::{SECTION_FACES, SECTION_LIMIT, SURFACE, summary};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng as _;
+
+use super::{Expected, Judged, bits, word};
+use crate::qemu::conformance::Section;
+use crate::random_surface::{Shape, SurfaceCase, Wishes};
+use crate::reference_surface::{
+    Border, Family, Grid, Polygons, Refined, Row, apply, butterfly, catmull_clark,
+    catmull_clark_limit, count_saturated, doo_sabin, loop_limit, loop_rule, sqrt3, sqrt3_limit,
+};
+
+/// A scheme, as cases number them.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scheme {
+    Loop = 1,
+    LoopWarren = 2,
+    TriQuad = 3,
+    CatmullClark = 4,
+    DooSabin = 5,
+    Sqrt3 = 6,
+    Butterfly = 7,
+    ButterflyModified = 8,
+}
+
+/// Corners of all faces that the image's memory holds in a refined mesh.
+const CORNERS_AT_MOST: usize = 2_000;
+/// The same where limit positions follow, which take a sum for every edge too.
+const CORNERS_BEFORE_LIMIT: usize = 750;
+
+/// The case of a seed. One of every ten is damaged.
+pub(super) fn case(scheme: Scheme, seed: u32) -> Judged {
+    let (mut mesh, points) = control_mesh(scheme, seed);
+    // Rims take turns by threes and damage by tens, so the rest is dealt by quotients.
+    let border = [Border::Spline, Border::SplineWithCorners, Border::Fixed][seed as usize % 3];
+    let levels = 1 + seed / 3 % 4;
+    let mut walk = Walk {
+        scheme,
+        border,
+        points: points.clone(),
+        expected: Expected::default(),
+    };
+    let mut words = vec![scheme as u32, seed % 3 + 1, 0, 0];
+    push_mesh(&mut words, &mesh, &points);
+    let wants_limit = scheme.has_limit() && (seed / 12).is_multiple_of(2);
+    let most = if wants_limit {
+        CORNERS_BEFORE_LIMIT
+    } else {
+        CORNERS_AT_MOST
+    };
+    let mut done = 0;
+    while done < levels && scheme.takes(&mesh) {
+        let refined = scheme.refine(&mesh, border);
+        if corners(&refined.mesh) > most {
+            break;
+        }
+        done += 1;
+        mesh = walk.step(done, refined);
+    }
+    words[2] = done;
+    if wants_limit && scheme.has_limit_on(&mesh) {
+        words[3] = 1;
+        walk.limit(done, &mesh);
+    }
+    let judged = Judged::sound(SURFACE, seed, words, walk.expected);
+    if seed.is_multiple_of(10) {
+        judged.damaged(&mut ChaCha8Rng::seed_from_u64(u64::from(seed)))
+    } else {
+        judged
+    }
+}
+
+/// A mesh that the scheme takes.
+fn control_mesh(scheme: Scheme, seed: u32) -> (Polygons, Vec<[i32; 3]>) {
+    let shape = match scheme {
+        Scheme::CatmullClark | Scheme::DooSabin => Shape::Polygons,
+        _ => Shape::Triangles,
+    };
+    let wishes = Wishes {
+        shape,
+        open: true,
+        features: match scheme {
+            Scheme::DooSabin => false,
+            // Lines that end or cross stop it at the second step.
+            Scheme::Sqrt3 => seed % 4 == 1,
+            _ => true,
+        },
+        tangled: matches!(
+            scheme,
+            Scheme::Loop | Scheme::LoopWarren | Scheme::TriQuad | Scheme::CatmullClark
+        ),
+    };
+    let SurfaceCase { mesh, points } = SurfaceCase::new(u64::from(seed), wishes);
+    if scheme.takes(&mesh) {
+        return (mesh, points);
+    }
+    let closed = Wishes {
+        open: false,
+        ..wishes
+    };
+    let SurfaceCase { mesh, points } = SurfaceCase::new(u64::from(seed), closed);
+    (mesh, points)
+}
+
+impl Scheme {
+    /// Whether a step is defined on a mesh of the right polygons.
+    fn takes(self, mesh: &Polygons) -> bool {
+        match self {
+            // Taking faces out can leave two fans that touch.
+            Scheme::DooSabin => !(0..mesh.vertex_count).any(|vertex| mesh.has_two_fans(vertex)),
+            Scheme::Sqrt3 => !mesh.odd || lines_run_on(mesh),
+            _ => true,
+        }
+    }
+
+    fn has_limit(self) -> bool {
+        !matches!(self, Scheme::Butterfly | Scheme::ButterflyModified)
+    }
+
+    fn has_limit_on(self, mesh: &Polygons) -> bool {
+        match self {
+            Scheme::CatmullClark => mesh.faces.iter().all(|face| face.len() == 4),
+            Scheme::Sqrt3 => !mesh.odd || mesh.sharp_edges().is_empty(),
+            _ => corners(mesh) <= CORNERS_BEFORE_LIMIT,
+        }
+    }
+
+    fn family(self) -> Family {
+        match self {
+            Scheme::LoopWarren => Family::Warren,
+            Scheme::TriQuad => Family::TriQuad,
+            _ => Family::Loop,
+        }
+    }
+
+    fn refine(self, mesh: &Polygons, border: Border) -> Refined {
+        match self {
+            Scheme::Loop | Scheme::LoopWarren | Scheme::TriQuad => {
+                loop_rule(mesh, self.family(), border, Grid::Device)
+            }
+            Scheme::CatmullClark => catmull_clark(mesh, border),
+            Scheme::DooSabin => doo_sabin(mesh, Grid::Device),
+            Scheme::Sqrt3 => sqrt3(mesh, Grid::Device),
+            Scheme::Butterfly => butterfly(mesh, false, border, Grid::Device),
+            Scheme::ButterflyModified => butterfly(mesh, true, border, Grid::Device),
+        }
+    }
+
+    fn limit(self, mesh: &Polygons, border: Border) -> Vec<Row> {
+        match self {
+            Scheme::Loop | Scheme::LoopWarren | Scheme::TriQuad => {
+                loop_limit(mesh, self.family(), border, Grid::Device)
+            }
+            Scheme::CatmullClark => catmull_clark_limit(mesh, border),
+            Scheme::DooSabin => mesh.faces.iter().map(|face| Row::mean(face)).collect(),
+            Scheme::Sqrt3 => sqrt3_limit(mesh, Grid::Device),
+            Scheme::Butterfly | Scheme::ButterflyModified => Vec::new(),
+        }
+    }
+}
+
+/// Whether no sharp line ends or crosses another.
+fn lines_run_on(mesh: &Polygons) -> bool {
+    let lines = mesh.sharp_edges();
+    !lines.iter().flatten().any(|vertex| mesh.is_end(*vertex))
+}
+
+/// A refinement on its way.
+struct Walk {
+    scheme: Scheme,
+    border: Border,
+    points: Vec<[i32; 3]>,
+    expected: Expected,
+}
+
+impl Walk {
+    /// Goes one level on.
+    fn step(&mut self, level: u32, refined: Refined) -> Polygons {
+        let saturated = count_saturated(&refined.rows, &self.points);
+        self.points = refined.points(&self.points);
+        self.expected.sections.push(faces(level, &refined.mesh));
+        self.expected.push_points(level, &self.points, saturated);
+        refined.mesh
+    }
+
+    fn limit(&mut self, level: u32, mesh: &Polygons) {
+        let rows = self.scheme.limit(mesh, self.border);
+        let limit = apply(&rows, &self.points);
+        self.expected.coordinates += 3 * limit.len();
+        let mut words = vec![level, word(self.expected.saturated)];
+        words.extend(bits(&limit));
+        self.expected.sections.push(Section {
+            tag: SECTION_LIMIT,
+            words,
+        });
+    }
+}
+
+fn corners(mesh: &Polygons) -> usize {
+    mesh.faces.iter().map(Vec::len).sum()
+}
+
+/// Where each face starts in the list of corners, and where the last one ends.
+fn offsets(mesh: &Polygons) -> Vec<u32> {
+    let ends = mesh.faces.iter().scan(0, |end, face| {
+        *end += word(face.len());
+        Some(*end)
+    });
+    std::iter::once(0).chain(ends).collect()
+}
+
+/// The mesh as a case tells it.
+pub(super) fn push_mesh(words: &mut Vec<u32>, mesh: &Polygons, points: &[[i32; 3]]) {
+    let counts = [
+        mesh.faces.len(),
+        corners(mesh),
+        mesh.creases.len(),
+        mesh.corners.len(),
+    ];
+    words.push(mesh.vertex_count);
+    words.extend(counts.map(word));
+    words.extend(offsets(mesh));
+    words.extend(mesh.faces.iter().flatten());
+    words.extend(mesh.creases.as_flattened());
+    words.extend(&mesh.corners);
+    words.extend(bits(points));
+}
+
+/// The section about a level's faces.
+fn faces(level: u32, mesh: &Polygons) -> Section {
+    let indices: Vec<u32> = mesh.faces.concat();
+    let mut words = vec![level, mesh.vertex_count];
+    words.extend(summary(&offsets(mesh)));
+    words.extend(summary(&indices));
+    words.extend(summary(&mesh.creases));
+    words.extend(summary(&mesh.corners));
+    words.push(u32::from(mesh.odd));
+    Section {
+        tag: SECTION_FACES,
+        words,
+    }
+}

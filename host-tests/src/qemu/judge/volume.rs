@@ -1,0 +1,107 @@
+//! The enclosed volume and its gradient.
+
+use octruss_firmware::cases::volume::wide;
+use octruss_firmware::cases::{SECTION_VOLUME, VOLUME, VOLUME_MODES};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng as _;
+
+use super::{Expected, Judged, bits, word};
+use crate::qemu::conformance::Section;
+use crate::random_volume::{ModesCase, VolumeCase};
+use crate::reference_volume::{VolumeTable, modes};
+
+/// Control points of a region.
+const POINTS: u16 = 24;
+
+/// A form's case of a seed. One of every ten is damaged.
+pub(super) fn form(seed: u32) -> Judged {
+    let VolumeCase { table, pose } = VolumeCase::new(u64::from(seed), POINTS);
+    let section = section(&table);
+    let mut words = vec![word(pose.len()), word(section.len())];
+    words.extend(section.chunks(4).map(|chunk| {
+        let mut bytes = [0; 4];
+        bytes[..chunk.len()].copy_from_slice(chunk);
+        u32::from_le_bytes(bytes)
+    }));
+    words.extend(bits(&pose));
+    let want = table.evaluate(&pose);
+    let mut numbers = wide(want.volume).to_vec();
+    numbers.push(want.volume_saturated);
+    numbers.extend(wide(want.volume));
+    numbers.push(want.saturated);
+    let gradient = want.gradient.as_flattened();
+    numbers.extend(gradient.iter().flat_map(|&coordinate| wide(coordinate)));
+    let expected = Expected {
+        sections: vec![Section {
+            tag: SECTION_VOLUME,
+            words: numbers,
+        }],
+        coordinates: 2 + gradient.len(),
+        saturated: want.saturated as usize,
+        ..Expected::default()
+    };
+    judged(VOLUME, seed, words, expected)
+}
+
+/// A polynomial's case of a seed. One of every ten is damaged.
+pub(super) fn polynomial(seed: u32) -> Judged {
+    let ModesCase {
+        coefficients,
+        amplitudes,
+    } = ModesCase::new(u64::from(seed));
+    let mut words = vec![word(amplitudes.len()), word(coefficients.len())];
+    words.extend(coefficients.iter().map(|number| number.cast_unsigned()));
+    words.extend(amplitudes.iter().map(|number| number.cast_unsigned()));
+    let (volume, derivatives) = modes(amplitudes.len(), &coefficients, &amplitudes);
+    let numbers = [volume, volume].into_iter().chain(derivatives);
+    let words_expected: Vec<u32> = numbers.flat_map(wide).collect();
+    let expected = Expected {
+        coordinates: words_expected.len() / 2,
+        sections: vec![Section {
+            tag: SECTION_VOLUME,
+            words: words_expected,
+        }],
+        ..Expected::default()
+    };
+    judged(VOLUME_MODES, seed, words, expected)
+}
+
+fn judged(kind: u32, seed: u32, words: Vec<u32>, expected: Expected) -> Judged {
+    let judged = Judged::sound(kind, seed, words, expected);
+    if seed.is_multiple_of(10) {
+        judged.damaged(&mut ChaCha8Rng::seed_from_u64(u64::from(seed)))
+    } else {
+        judged
+    }
+}
+
+/// The form as it lies in a bundle: the layout of `octruss::enclosed::VolumeRecord`.
+fn section(table: &VolumeTable) -> Vec<u8> {
+    let mut pairs = table.empty_pairs.clone();
+    let mut starts = vec![0; pairs.len()];
+    for (place, ([i, j, _], _)) in table.taps.iter().enumerate() {
+        if pairs.last() != Some(&[*i, *j]) {
+            pairs.push([*i, *j]);
+            starts.push(word(place));
+        }
+    }
+    starts.push(word(table.taps.len()));
+    let record = [
+        word(table.points.len()),
+        word(pairs.len()),
+        word(table.taps.len()),
+        table.difference_shift,
+        table.pair_bits,
+        table.volume_shift,
+        table.gradient_bits,
+        0,
+    ];
+    let weights = table.taps.iter().map(|(_, weight)| weight.cast_unsigned());
+    let wide = record.into_iter().chain(weights).chain(starts);
+    let thirds = table.taps.iter().map(|([_, _, third], _)| *third);
+    let narrow = pairs.into_iter().flatten();
+    let narrow = narrow.chain(table.points.iter().copied()).chain(thirds);
+    wide.flat_map(u32::to_le_bytes)
+        .chain(narrow.flat_map(u16::to_le_bytes))
+        .collect()
+}
