@@ -39,11 +39,14 @@ pub struct Contents<'a> {
     pub model_checksum: u32,
 }
 
-/// CRC-32 of a cage's connectivity: the numbers of vertices, tetrahedra and octahedra, then the
-/// corners of all tetrahedra, then those of all octahedra, each number as 32 bits, least
-/// significant byte first.
+/// CRC-32 of a cage's connectivity: the numbers of vertices, tetrahedra and octahedra, and if there
+/// are any prisms or hexahedra the numbers of these two, then the corners of all tetrahedra,
+/// octahedra, prisms and hexahedra, each number as 32 bits, least significant byte first.
 pub fn cage_checksum(vertices: usize, cells: &Cells) -> u32 {
-    let counts = [vertices, cells.tetrahedra.len(), cells.octahedra.len()];
+    let mut counts = vec![vertices, cells.tetrahedra.len(), cells.octahedra.len()];
+    if !cells.is_tetrahedral() {
+        counts.extend([cells.prisms.len(), cells.hexahedra.len()]);
+    }
     let words = counts.into_iter().map(|count| count as u32);
     let bytes: Vec<u8> = words
         .chain(cells.corners().flatten().copied())

@@ -2,19 +2,23 @@
 
 use crate::error::{Error, Result, count};
 use crate::geometry::tetrahedron_volume_6;
+use crate::locate::curved::{Hexahedron, Prism};
 use crate::locate::octahedron::Octahedron;
-use crate::mesh::{Cells, Point, SolidMesh, Vertex};
-use octruss::mesh::{OCTAHEDRON_FACES, TETRAHEDRON_FACES};
+use crate::mesh::{Cells, Point, Shape, SolidMesh, Vertex, canonical_quad};
 use std::collections::HashMap;
 
-/// The volumes of the cells of a mesh, judged exactly.
+/// The volumes of the cells of a mesh. Tetrahedra are judged exactly; the volumes of the others
+/// are sums of exact signs' determinants, each rounded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Volumes {
     /// Cells of negative volume, as places in [`crate::mesh::Cells::corners`].
     pub inverted: Vec<usize>,
     /// Cells without volume.
     pub flat: Vec<usize>,
-    /// Octahedra of positive volume that no diagonal cuts into four positive tetrahedra.
+    /// Cells of positive volume that are folded all the same: octahedra that no diagonal cuts into
+    /// four positive tetrahedra, and prisms and hexahedra with a corner at which their three edges
+    /// do not span a positive tetrahedron (there the cell's map has no positive Jacobian; decided
+    /// exactly).
     pub folded: Vec<usize>,
 }
 
@@ -26,9 +30,21 @@ impl Volumes {
         for (cell, corners) in cells.tetrahedra.iter().enumerate() {
             volumes.sort_in(cell, tetrahedron_volume_6(corners.map(position)), true);
         }
-        for (cell, corners) in (cells.tetrahedra.len()..).zip(&cells.octahedra) {
+        let mut cell = cells.tetrahedra.len();
+        for corners in &cells.octahedra {
             let shape = Octahedron::new(corners.map(position));
             volumes.sort_in(cell, shape.volume_6(), shape.is_sound());
+            cell += 1;
+        }
+        for corners in &cells.prisms {
+            let shape = Prism::new(corners.map(position));
+            volumes.sort_in(cell, shape.volume_12(), shape.is_sound());
+            cell += 1;
+        }
+        for corners in &cells.hexahedra {
+            let shape = Hexahedron::new(corners.map(position));
+            volumes.sort_in(cell, shape.volume_12(), shape.is_sound());
+            cell += 1;
         }
         volumes
     }
@@ -74,15 +90,30 @@ pub fn require_positive_volumes(mesh: &SolidMesh) -> Result<()> {
         ))
         .advise("remove the flat cells, for example with Gmsh's Mesh.Optimize"));
     }
-    if let Some(name) = first(&volumes.folded) {
-        return Err(Error::new(format!(
-            "{} of {} folded, first {name} (counted from 0 in file order): no diagonal cuts it into four tetrahedra of positive volume",
-            volumes.folded.len(),
-            count(mesh.cells.octahedra.len(), "octahedron is", "octahedra are")
-        ))
-        .advise("move its corners apart, or cut it into tetrahedra"));
+    match volumes.folded.first() {
+        None => Ok(()),
+        Some(cell) => Err(folded(mesh, volumes.folded.len(), *cell)),
     }
-    Ok(())
+}
+
+fn folded(mesh: &SolidMesh, number: usize, first: usize) -> Error {
+    let (shape, place) = mesh.cells.place(first);
+    let (singular, _) = shape.names();
+    let (why, advice) = match shape {
+        Shape::Octahedron => (
+            "no diagonal cuts it into four tetrahedra of positive volume",
+            "move its corners apart, or cut it into tetrahedra",
+        ),
+        _ => (
+            "at one of its corners the three edges do not span a positive volume",
+            "move its corners apart, list them in the order of the format, or cut it into tetrahedra",
+        ),
+    };
+    Error::new(format!(
+        "{number} of {} folded, first {singular} {place} (counted from 0 in file order): {why}",
+        count(mesh.cells.len(), "cell is", "cells are"),
+    ))
+    .advise(advice)
 }
 
 /// Error if the connectivity is none of a solid: a cell that names a vertex twice, two cells with
@@ -109,16 +140,12 @@ pub fn require_sound_connectivity(mesh: &SolidMesh) -> Result<()> {
             .advise("remove one; Gmsh's MSH 2.2 lists a cell once for each physical group that holds it"));
         }
     }
-    let mut uses: HashMap<[Vertex; 3], u32> = HashMap::new();
-    for face in faces(mesh) {
-        let mut key = face;
-        key.sort_unstable();
-        *uses.entry(key).or_default() += 1;
-    }
-    match uses.into_iter().filter(|(_, uses)| *uses > 2).min() {
+    let faces = FaceUses::of(&mesh.cells);
+    match faces.most_crowded() {
         None => Ok(()),
-        Some(([a, b, c], uses)) => Err(Error::new(format!(
-            "{uses} cells share the face of vertices {a}, {b} and {c} (counted from 0)"
+        Some((corners, uses)) => Err(Error::new(format!(
+            "{uses} cells share the face of vertices {} (counted from 0)",
+            listed(&corners)
         ))
         .advise(
             "cells overlap there; a face belongs to one cell on the boundary and to two inside",
@@ -126,19 +153,63 @@ pub fn require_sound_connectivity(mesh: &SolidMesh) -> Result<()> {
     }
 }
 
-/// The faces of all cells, counter-clockwise from outside of a positive cell.
-pub(crate) fn faces(mesh: &SolidMesh) -> impl Iterator<Item = [Vertex; 3]> {
-    let of_tetrahedra = mesh
-        .cells
-        .tetrahedra
-        .iter()
-        .flat_map(|cell| TETRAHEDRON_FACES.map(|face| face.map(|corner| cell[corner])));
-    let of_octahedra = mesh
-        .cells
-        .octahedra
-        .iter()
-        .flat_map(|cell| OCTAHEDRON_FACES.map(|face| face.map(|corner| cell[corner])));
-    of_tetrahedra.chain(of_octahedra)
+/// "1, 2 and 3".
+fn listed(vertices: &[Vertex]) -> String {
+    let words: Vec<String> = vertices.iter().map(ToString::to_string).collect();
+    match words.split_last() {
+        Some((last, others)) if !others.is_empty() => {
+            format!("{} and {last}", others.join(", "))
+        }
+        _ => words.concat(),
+    }
+}
+
+/// How many cells have each face.
+pub(crate) struct FaceUses {
+    /// Triangles with ascending corners.
+    pub triangles: HashMap<[Vertex; 3], u32>,
+    /// Quadrilaterals, as [`canonical_quad`] turns them.
+    pub quads: HashMap<[Vertex; 4], u32>,
+}
+
+impl FaceUses {
+    /// Of all cells.
+    pub fn of(cells: &Cells) -> Self {
+        let mut uses = Self {
+            triangles: HashMap::new(),
+            quads: HashMap::new(),
+        };
+        for mut face in cells.triangles() {
+            face.sort_unstable();
+            *uses.triangles.entry(face).or_default() += 1;
+        }
+        for face in cells.quads() {
+            *uses.quads.entry(canonical_quad(face)).or_default() += 1;
+        }
+        uses
+    }
+
+    /// How many cells have a triangle on the half of a quadrilateral that leaves out the corner at
+    /// this place.
+    pub fn on_half(&self, quad: &[Vertex; 4], left_out: usize) -> u32 {
+        let mut half = [1, 2, 3].map(|step| quad[(left_out + step) % 4]);
+        half.sort_unstable();
+        self.triangles.get(&half).copied().unwrap_or(0)
+    }
+
+    /// The least face that more than two cells share; a triangle on half of a quadrilateral shares
+    /// that.
+    fn most_crowded(&self) -> Option<(Vec<Vertex>, u32)> {
+        let of_triangles = self.triangles.iter();
+        let of_triangles = of_triangles.map(|(face, uses)| (face.to_vec(), *uses));
+        let of_quads = self.quads.iter().map(|(face, uses)| {
+            let halves = (0..4).map(|left_out| self.on_half(face, left_out));
+            (face.to_vec(), uses + halves.max().unwrap_or(0))
+        });
+        let mut crowded = of_triangles.chain(of_quads).filter(|(_, uses)| *uses > 2);
+        let first = crowded.next()?;
+        Some(crowded.fold(first, Ord::min))
+    }
 }
 
 /// Vertices that no cell and no sheet uses: control points that move nothing.

@@ -5,8 +5,8 @@ use crate::error::Result;
 use crate::geometry::bounds;
 use crate::mesh::{Point, SolidMesh, Vertex};
 use crate::overlap::overlapping_cells;
-use crate::refine::{Interior, Level};
-use octruss::mesh::{Counts, OCTAHEDRON_EDGES, TETRAHEDRON_EDGES};
+use crate::refine::{Interior, Level, MixedLevelCounts, Scheme};
+use octruss::mesh::Counts;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,10 +33,16 @@ pub struct Inspection {
     pub tetrahedra: usize,
     /// Octahedra.
     pub octahedra: usize,
-    /// Edges of cells.
+    /// Prisms.
+    pub prisms: usize,
+    /// Hexahedra.
+    pub hexahedra: usize,
+    /// Edges of cells; not the diagonals of quadrilaterals on which triangles lie.
     pub edges: usize,
-    /// Faces of cells.
+    /// Faces of cells; a quadrilateral counts as one, with the triangles that lie on it.
     pub faces: usize,
+    /// Quadrilaterals among them, by how many halves triangles of other cells cover: none, one, two.
+    pub quadrilaterals_by_covered_halves: [usize; 3],
     /// Least and greatest coordinates.
     pub bounds: Option<[Point; 2]>,
     /// Interior edges by the number of cells round them.
@@ -52,9 +58,11 @@ pub struct Inspection {
     pub surface_vertex_valences: Histogram,
     /// Triangles of the boundary.
     pub boundary_triangles: usize,
-    /// Edges of boundary triangles.
+    /// Quadrilaterals of the boundary.
+    pub boundary_quadrilaterals: usize,
+    /// Edges of boundary faces.
     pub boundary_edges: usize,
-    /// Boundary edges that do not belong to exactly two boundary triangles.
+    /// Boundary edges that do not belong to exactly two boundary faces.
     pub irregular_boundary_edges: usize,
     /// Interior edges of three cells, along which the scheme tet-oct is not smooth.
     pub interior_edges_of_valence_3: Vec<[Vertex; 2]>,
@@ -81,12 +89,15 @@ pub struct Inspection {
     pub inverted_cells: Vec<String>,
     /// Cells without volume, by name.
     pub flat_cells: Vec<String>,
-    /// Octahedra that no diagonal cuts into four tetrahedra of positive volume, by name.
+    /// Octahedra that no diagonal cuts into four tetrahedra of positive volume, and prisms and
+    /// hexahedra without positive volume at a corner, by name.
     pub folded_cells: Vec<String>,
     /// Pairs of cells that share space, by name.
     pub overlapping_cells: Vec<[String; 2]>,
-    /// Arena capacities, level by level.
+    /// Arena capacities, level by level; empty for the scheme mixed.
     pub capacities: Vec<Capacities>,
+    /// Arena capacities of the scheme mixed, level by level; else empty.
+    pub mixed_capacities: Vec<MixedCapacities>,
     /// What the reader left out or found odd.
     pub notes: Vec<String>,
 }
@@ -139,6 +150,95 @@ impl Capacities {
     }
 }
 
+/// How much memory a level of the scheme mixed needs on a device: the const parameters of core's
+/// arenas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct MixedCapacities {
+    /// The level; 0 is the mesh itself.
+    pub level: u32,
+    /// Vertices, `N` of `PointScratch` to refine this level.
+    pub vertices: usize,
+    /// Tetrahedra, `T` of `MixedArena`.
+    pub tetrahedra: usize,
+    /// Octahedra, `O` of `MixedArena` and, to refine this level, of `NumberingScratch`.
+    pub octahedra: usize,
+    /// Prisms, `P` of `MixedArena`.
+    pub prisms: usize,
+    /// Hexahedra, `H` of `MixedArena` and, to refine this level, of `NumberingScratch`.
+    pub hexahedra: usize,
+    /// Surface triangles, `S` of `MixedArena`.
+    pub surface: usize,
+    /// Surface quadrilaterals, `Q` of `MixedArena`.
+    pub surface_quads: usize,
+    /// Crease edges, `C` of `MixedArena`.
+    pub creases: usize,
+    /// Corners, `K` of `MixedArena`.
+    pub corners: usize,
+    /// Edges with repetitions, `E` of `NumberingScratch` to refine this level.
+    pub scratch_edges: usize,
+    /// Quadrilateral faces with repetitions, `F` of `NumberingScratch` to refine this level; `D`, for
+    /// their diagonals, is twice as much.
+    pub scratch_quads: usize,
+    /// Triangles of prisms, `R` of `NumberingScratch` to refine this level.
+    pub scratch_prism_triangles: usize,
+    /// Vertices of the next level, `V` of `PointScratch` to refine this level.
+    pub scratch_vertices: usize,
+    /// Triangles and quadrilaterals: scratch to find the boundary of this level.
+    pub faces_to_find_boundary: [usize; 2],
+}
+
+impl MixedCapacities {
+    fn of(level: u32, counts: MixedLevelCounts, next_vertices: usize) -> Option<Self> {
+        let sum = |terms: &[(usize, usize)]| {
+            terms.iter().try_fold(0_usize, |sum, (factor, count)| {
+                sum.checked_add(factor.checked_mul(*count)?)
+            })
+        };
+        let MixedLevelCounts {
+            tetrahedra,
+            octahedra,
+            prisms,
+            hexahedra,
+            surface,
+            surface_quads,
+            ..
+        } = counts;
+        let cell_quads = sum(&[(3, prisms), (6, hexahedra)])?;
+        Some(Self {
+            level,
+            vertices: counts.vertices,
+            tetrahedra,
+            octahedra,
+            prisms,
+            hexahedra,
+            surface,
+            surface_quads,
+            creases: counts.creases,
+            corners: counts.corners,
+            scratch_edges: sum(&[
+                (6, tetrahedra),
+                (12, octahedra),
+                (9, prisms),
+                (12, hexahedra),
+                (3, surface),
+                (4, surface_quads),
+            ])?,
+            scratch_quads: sum(&[(1, cell_quads), (1, surface_quads)])?,
+            scratch_prism_triangles: sum(&[(2, prisms)])?,
+            scratch_vertices: next_vertices,
+            faces_to_find_boundary: [
+                sum(&[
+                    (4, tetrahedra),
+                    (8, octahedra),
+                    (2, prisms),
+                    (4, cell_quads),
+                ])?,
+                cell_quads,
+            ],
+        })
+    }
+}
+
 impl Inspection {
     /// Adds what the scheme of a level asks for.
     ///
@@ -146,7 +246,7 @@ impl Inspection {
     /// If the connectivity is none of a solid.
     pub fn add_scheme(&mut self, level: &Level) -> Result<()> {
         let spokes = match &level.interior {
-            Interior::TetOct => return Ok(()),
+            Interior::TetOct | Interior::Mixed => return Ok(()),
             Interior::BoxSpline(_) => 4,
             Interior::BoxSplineAveraged => 12,
         };
@@ -158,7 +258,7 @@ impl Inspection {
                 }
                 Some(counts)
             }
-            Interior::TetOct | Interior::BoxSplineAveraged => None,
+            Interior::TetOct | Interior::BoxSplineAveraged | Interior::Mixed => None,
         };
         self.box_spline = Some(BoxSplineFigures {
             cells_by_diagonal,
@@ -169,19 +269,27 @@ impl Inspection {
     }
 }
 
-/// Looks at a mesh; capacities are predicted up to `levels`.
+/// Looks at a mesh; capacities are predicted up to `levels`, of the scheme mixed if that is asked for.
 ///
 /// # Errors
-/// If the connectivity is none of a solid.
-pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
+/// If the connectivity is none of a solid, or there are prisms or hexahedra and another scheme is
+/// asked for.
+pub fn inspect(mesh: &SolidMesh, scheme: Scheme, levels: u32) -> Result<Inspection> {
     check::require_sound_connectivity(mesh)?;
-    let level = Level::new(mesh)?;
-    let counts = level.counts()?;
+    let level = match scheme {
+        Scheme::Mixed => Level::of_scheme(mesh, scheme, None)?,
+        _ => Level::of_scheme(mesh, Scheme::TetOct, None)?,
+    };
+    let counts = MixedLevelCounts::of(&level)?;
+    let (capacities, mixed_capacities) = match scheme {
+        Scheme::Mixed => (Vec::new(), mixed_capacities(counts, levels)),
+        _ => (capacities(level.counts()?, levels), Vec::new()),
+    };
     let volumes = Volumes::of(&mesh.cells, &mesh.points);
     let names = |cells: &[usize]| cells.iter().map(|cell| mesh.cells.name(*cell)).collect();
     let edge_cells = edge_cells(mesh);
-    let surface = SurfaceEdges::of(level.boundary());
-    let on_boundary = |edge: &[Vertex; 2]| surface.triangles.contains_key(edge);
+    let surface = SurfaceEdges::of(&level);
+    let on_boundary = |edge: &[Vertex; 2]| surface.faces.contains_key(edge);
     let (boundary, interior): (Vec<_>, Vec<_>) =
         edge_cells.iter().partition(|(edge, _)| on_boundary(edge));
     let vertex_cells = count_each(mesh.cells.corners().flatten().copied());
@@ -192,23 +300,31 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
         vertices: mesh.points.len(),
         tetrahedra: mesh.cells.tetrahedra.len(),
         octahedra: mesh.cells.octahedra.len(),
+        prisms: mesh.cells.prisms.len(),
+        hexahedra: mesh.cells.hexahedra.len(),
         edges: counts.edges,
-        faces: counts.faces - level.sheets().len(),
+        faces: counts.triangles - level.sheets().len() + counts.quads(),
+        quadrilaterals_by_covered_halves: [
+            counts.free_quads,
+            counts.half_covered_quads,
+            counts.covered_quads,
+        ],
         bounds: bounds(&mesh.points),
         interior_edges_of_valence_3: of_three_cells(&interior),
         interior_edge_valences: count_each(interior.into_iter().map(|(_, cells)| *cells)),
         boundary_edge_valences: count_each(boundary.into_iter().map(|(_, cells)| *cells)),
         interior_vertex_valences: count_each(interior_vertices.into_iter().map(|(_, n)| *n as u32)),
         boundary_vertex_valences: count_each(boundary_vertices.into_iter().map(|(_, n)| *n as u32)),
-        surface_vertex_valences: edge_valences(surface.triangles.keys()),
+        surface_vertex_valences: edge_valences(surface.faces.keys()),
         boundary_triangles: level.boundary().len(),
-        boundary_edges: surface.triangles.len(),
-        irregular_boundary_edges: surface.triangles.values().filter(|n| **n != 2).count(),
+        boundary_quadrilaterals: level.boundary_quads().len(),
+        boundary_edges: surface.faces.len(),
+        irregular_boundary_edges: surface.faces.values().filter(|n| **n != 2).count(),
         box_spline: None,
         creases: mesh.features.creases.len(),
         crease_vertex_valences: edge_valences(mesh.features.creases.iter()),
         corners: mesh.features.corners.len(),
-        crease_faces: level.crease_faces().len(),
+        crease_faces: level.crease_faces().len() + level.crease_quads().len(),
         sheets: level.sheets().len(),
         labels: count_each(mesh.labels.iter()),
         channels: mesh
@@ -224,7 +340,8 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
             .into_iter()
             .map(|pair| pair.map(|cell| mesh.cells.name(cell)))
             .collect(),
-        capacities: capacities(counts, levels),
+        capacities,
+        mixed_capacities,
         notes: mesh.notes.clone(),
     })
 }
@@ -234,11 +351,11 @@ pub fn inspect(mesh: &SolidMesh, levels: u32) -> Result<Inspection> {
 /// # Errors
 /// If the connectivity is none of a solid.
 pub fn interior_edges_of_valence_3(mesh: &SolidMesh) -> Result<Vec<[Vertex; 2]>> {
-    let surface = SurfaceEdges::of(Level::new(mesh)?.boundary());
+    let surface = SurfaceEdges::of(&Level::new(mesh)?);
     let edges = edge_cells(mesh);
     let interior = edges
         .iter()
-        .filter(|(edge, _)| !surface.triangles.contains_key(*edge));
+        .filter(|(edge, _)| !surface.faces.contains_key(*edge));
     Ok(of_three_cells(&interior.collect::<Vec<_>>()))
 }
 
@@ -247,8 +364,8 @@ pub fn interior_edges_of_valence_3(mesh: &SolidMesh) -> Result<Vec<[Vertex; 2]>>
 /// # Errors
 /// If the connectivity is none of a solid.
 pub fn irregular_boundary_edges(mesh: &SolidMesh) -> Result<Vec<[Vertex; 2]>> {
-    let surface = SurfaceEdges::of(Level::new(mesh)?.boundary());
-    let irregular = surface.triangles.iter().filter(|(_, n)| **n != 2);
+    let surface = SurfaceEdges::of(&Level::new(mesh)?);
+    let irregular = surface.faces.iter().filter(|(_, n)| **n != 2);
     Ok(irregular.map(|(edge, _)| *edge).collect())
 }
 
@@ -258,6 +375,21 @@ fn of_three_cells(edges: &[(&[Vertex; 2], &u32)]) -> Vec<[Vertex; 2]> {
         .filter(|(_, cells)| **cells == 3)
         .map(|(edge, _)| **edge)
         .collect()
+}
+
+fn mixed_capacities(mut counts: MixedLevelCounts, levels: u32) -> Vec<MixedCapacities> {
+    let mut list = Vec::new();
+    for level in 0..=levels {
+        let refined = counts.refined();
+        let Some(capacities) =
+            refined.and_then(|refined| MixedCapacities::of(level, counts, refined.vertices))
+        else {
+            break;
+        };
+        list.push(capacities);
+        counts = refined.unwrap_or(counts);
+    }
+    list
 }
 
 fn capacities(mut counts: Counts, levels: u32) -> Vec<Capacities> {
@@ -278,12 +410,8 @@ fn capacities(mut counts: Counts, levels: u32) -> Vec<Capacities> {
 /// The edges of all cells, ends ascending, with the number of cells round each.
 fn edge_cells(mesh: &SolidMesh) -> BTreeMap<[Vertex; 2], u32> {
     let mut edges = BTreeMap::new();
-    for corners in mesh.cells.corners() {
-        let pairs: &[[usize; 2]] = match corners.len() {
-            4 => &TETRAHEDRON_EDGES,
-            _ => &OCTAHEDRON_EDGES,
-        };
-        for [a, b] in pairs {
+    for (shape, corners) in mesh.cells.iter() {
+        for [a, b] in shape.edges() {
             let (a, b) = (corners[*a], corners[*b]);
             *edges.entry([a.min(b), a.max(b)]).or_default() += 1;
         }
@@ -291,24 +419,24 @@ fn edge_cells(mesh: &SolidMesh) -> BTreeMap<[Vertex; 2], u32> {
     edges
 }
 
-/// The edges of the boundary with the number of boundary triangles at each, and its vertices.
+/// The edges of the boundary with the number of boundary faces at each, and its vertices.
 struct SurfaceEdges {
-    triangles: BTreeMap<[Vertex; 2], u32>,
+    faces: BTreeMap<[Vertex; 2], u32>,
     vertices: BTreeSet<Vertex>,
 }
 
 impl SurfaceEdges {
-    fn of(surface: &[[Vertex; 3]]) -> Self {
-        let mut triangles = BTreeMap::new();
-        for [a, b, c] in surface {
-            for (a, b) in [(a, b), (b, c), (c, a)] {
-                *triangles.entry([*a.min(b), *a.max(b)]).or_default() += 1;
+    fn of(level: &Level) -> Self {
+        let triangles = level.boundary().iter().map(<[Vertex; 3]>::as_slice);
+        let quads = level.boundary_quads().iter().map(<[Vertex; 4]>::as_slice);
+        let (mut faces, mut vertices) = (BTreeMap::new(), BTreeSet::new());
+        for face in triangles.chain(quads) {
+            for (a, b) in face.iter().zip(face.iter().cycle().skip(1)) {
+                *faces.entry([*a.min(b), *a.max(b)]).or_default() += 1;
             }
+            vertices.extend(face);
         }
-        Self {
-            triangles,
-            vertices: surface.iter().flatten().copied().collect(),
-        }
+        Self { faces, vertices }
     }
 }
 

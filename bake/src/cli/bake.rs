@@ -52,9 +52,9 @@ pub struct Arguments {
     /// How many times to refine the cage
     #[arg(long, value_name = "K", default_value_t = 2)]
     pub levels: u32,
-    /// What the boundary of a solid follows
-    #[arg(long, value_enum, default_value_t)]
-    boundary: BoundaryRule,
+    /// What the boundary of a solid follows: loop by default, with --scheme mixed tri-quad
+    #[arg(long, value_enum)]
+    boundary: Option<BoundaryRule>,
     /// Bits after the point of the 32-bit coordinates, 0 to 32; by default as many as leave two
     /// bits of headroom over the largest coordinate of cage and model
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MOST_FRACTION_BITS)))]
@@ -139,7 +139,7 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
     let options = Options {
         scheme,
         diagonals,
-        boundary: arguments.boundary,
+        boundary: scheme.boundary(arguments.boundary)?,
         levels: arguments.levels,
         fraction_bits: arguments.fraction_bits,
         unit: arguments.unit.clone(),
@@ -223,8 +223,11 @@ fn warn_of_cage(cage: &SolidMesh, scheme: Scheme) -> Result<()> {
             if unused.len() == 1 { "moves" } else { "move" }
         );
     }
-    let edges = interior_edges_of_valence_3(cage)?;
-    if !edges.is_empty() && scheme == Scheme::TetOct {
+    let edges = match scheme {
+        Scheme::TetOct => interior_edges_of_valence_3(cage)?,
+        _ => Vec::new(),
+    };
+    if !edges.is_empty() {
         eprintln!(
             "warning: {} of three cells, along which the map is not smooth; `octruss info` names them",
             count(edges.len(), "interior edge", "interior edges")
@@ -233,7 +236,7 @@ fn warn_of_cage(cage: &SolidMesh, scheme: Scheme) -> Result<()> {
     let touching = irregular_boundary_edges(cage)?;
     if let Some([a, b]) = touching.first() {
         eprintln!(
-            "warning: the boundary touches itself at {}, first from vertex {a} to vertex {b} (counted from 0): other than two boundary triangles meet there",
+            "warning: the boundary touches itself at {}, first from vertex {a} to vertex {b} (counted from 0): other than two boundary faces meet there",
             count(touching.len(), "edge", "edges")
         );
     }

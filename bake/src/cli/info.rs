@@ -1,6 +1,7 @@
 //! `octruss info`.
 
-use super::{print_figures, scheme};
+use super::print_figures;
+use super::scheme as schemes;
 use octruss_bake::error::{Error, Result};
 use octruss_bake::inspect::{Histogram, Inspection, inspect};
 use octruss_bake::refine::{Interior, Level, Scheme};
@@ -20,9 +21,10 @@ pub struct Arguments {
     /// File with features: a line each, `crease A B`, `crease-face A B C` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
-    /// The scheme that the mesh is to be refined with: box-spline adds the choice of major diagonals
-    #[arg(long, value_enum, default_value_t)]
-    scheme: Scheme,
+    /// The scheme that the mesh is to be refined with: box-spline adds the choice of major diagonals;
+    /// by default tet-oct, or mixed for a mesh with prisms or hexahedra
+    #[arg(long, value_enum)]
+    scheme: Option<Scheme>,
     /// File with the major diagonals of the cells, for `box-spline`: 0, 1 or 2 for each
     /// tetrahedron, then each octahedron, in file order; by default they are chosen
     #[arg(long, value_name = "FILE")]
@@ -42,9 +44,15 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<()> {
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
     let of_mesh = |error: Error| error.in_file(&arguments.mesh);
-    let mut inspection = inspect(&mesh, arguments.levels).map_err(of_mesh)?;
-    let diagonals = scheme::diagonals(arguments.scheme, arguments.diagonals.as_deref(), &mesh)?;
-    let level = Level::of_scheme(&mesh, arguments.scheme, diagonals.as_ref()).map_err(of_mesh)?;
+    let by_cells = if mesh.cells.is_tetrahedral() {
+        Scheme::TetOct
+    } else {
+        Scheme::Mixed
+    };
+    let scheme = arguments.scheme.unwrap_or(by_cells);
+    let mut inspection = inspect(&mesh, scheme, arguments.levels).map_err(of_mesh)?;
+    let diagonals = schemes::diagonals(scheme, arguments.diagonals.as_deref(), &mesh)?;
+    let level = Level::of_scheme(&mesh, scheme, diagonals.as_ref()).map_err(of_mesh)?;
     inspection.add_scheme(&level).map_err(of_mesh)?;
     if let Some(file) = &arguments.write_diagonals {
         let Interior::BoxSpline(diagonals) = &level.interior else {
@@ -64,17 +72,29 @@ fn words(inspection: &Inspection) -> String {
         let _ = writeln!(text, "{name:<28}{content}");
     };
     line("vertices", inspection.vertices.to_string());
-    line(
-        "cells",
-        format!(
-            "{} tetrahedra, {} octahedra",
-            inspection.tetrahedra, inspection.octahedra
-        ),
+    let mut cells = format!(
+        "{} tetrahedra, {} octahedra",
+        inspection.tetrahedra, inspection.octahedra
     );
+    let is_mixed = inspection.prisms + inspection.hexahedra > 0;
+    if is_mixed {
+        cells += &format!(
+            ", {} prisms, {} hexahedra",
+            inspection.prisms, inspection.hexahedra
+        );
+    }
+    line("cells", cells);
     line(
         "edges, faces",
         format!("{}, {}", inspection.edges, inspection.faces),
     );
+    if is_mixed {
+        let [free, half, full] = inspection.quadrilaterals_by_covered_halves;
+        line(
+            "quadrilaterals",
+            format!("{free} free, {half} half covered by a triangle, {full} covered by triangles"),
+        );
+    }
     if let Some([low, high]) = inspection.bounds {
         line("extent", format!("{low:?} to {high:?}"));
     }
@@ -98,10 +118,14 @@ fn words(inspection: &Inspection) -> String {
         "",
         histogram(&inspection.surface_vertex_valences, "boundary edges"),
     );
+    let quads = match inspection.boundary_quadrilaterals {
+        0 => String::new(),
+        quads => format!("{quads} quadrilaterals, "),
+    };
     line(
         "boundary",
         format!(
-            "{} triangles, {} edges",
+            "{} triangles, {quads}{} edges",
             inspection.boundary_triangles, inspection.boundary_edges
         ),
     );
@@ -147,7 +171,7 @@ fn features_and_volumes(text: &mut String, inspection: &Inspection) {
     for (name, cells) in [
         ("inverted cells", &inspection.inverted_cells),
         ("flat cells", &inspection.flat_cells),
-        ("folded octahedra", &inspection.folded_cells),
+        ("folded cells", &inspection.folded_cells),
     ] {
         line(name, some(cells));
     }
@@ -208,7 +232,47 @@ fn box_spline(text: &mut String, inspection: &Inspection) {
     );
 }
 
+/// Of the scheme mixed.
+fn mixed_capacities(text: &mut String, inspection: &Inspection) {
+    let _ = writeln!(
+        text,
+        "\ncapacities: MixedArena<T, O, P, H, S, Q, C, K> holds a level, NumberingScratch<E, F, D, R, O, H>\n\
+         and PointScratch<_, N, V> refine it; N is the number of vertices, D = 2 F, R = 2 P\n\
+         level          N          T          O          P          H          S          Q          C          K          E          F          V"
+    );
+    for row in &inspection.mixed_capacities {
+        let _ = write!(text, "{:>5}", row.level);
+        for number in [
+            row.vertices,
+            row.tetrahedra,
+            row.octahedra,
+            row.prisms,
+            row.hexahedra,
+            row.surface,
+            row.surface_quads,
+            row.creases,
+            row.corners,
+            row.scratch_edges,
+            row.scratch_quads,
+            row.scratch_vertices,
+        ] {
+            let _ = write!(text, " {number:>10}");
+        }
+        let _ = writeln!(text);
+    }
+    if let Some(first) = inspection.mixed_capacities.first() {
+        let [triangles, quads] = first.faces_to_find_boundary;
+        let _ = writeln!(
+            text,
+            "finding the boundary of level 0 takes a scratch of {triangles} triangles and {quads} quadrilaterals\n"
+        );
+    }
+}
+
 fn capacities(text: &mut String, inspection: &Inspection) {
+    if !inspection.mixed_capacities.is_empty() {
+        return mixed_capacities(text, inspection);
+    }
     let _ = writeln!(
         text,
         "\ncapacities: SolidArena<T, O, S, C, K> holds a level, Scratch<_, E, O, V> refines it\n\
@@ -253,7 +317,7 @@ fn warnings(inspection: &Inspection) -> Vec<String> {
     }
     if inspection.irregular_boundary_edges > 0 {
         warnings.push(format!(
-            "{} boundary edges do not belong to exactly two boundary triangles: the boundary touches itself there",
+            "{} boundary edges do not belong to exactly two boundary faces: the boundary touches itself there",
             inspection.irregular_boundary_edges
         ));
     }

@@ -37,9 +37,9 @@ pub struct Arguments {
     /// How many times to refine the cage
     #[arg(long, value_name = "K", default_value_t = 2)]
     levels: u32,
-    /// What the boundary follows
-    #[arg(long, value_enum, default_value_t)]
-    boundary: BoundaryRule,
+    /// What the boundary follows: loop by default, with --scheme mixed tri-quad
+    #[arg(long, value_enum)]
+    boundary: Option<BoundaryRule>,
     /// File with features of the cage: a line each, `crease A B`, `crease-face A B C` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
@@ -83,15 +83,10 @@ struct CellName {
 
 impl CellName {
     fn of(cells: &Cells, place: usize) -> Self {
-        match place.checked_sub(cells.tetrahedra.len()) {
-            None => Self {
-                shape: "tetrahedron",
-                index: place,
-            },
-            Some(index) => Self {
-                shape: "octahedron",
-                index,
-            },
+        let (shape, index) = cells.place(place);
+        Self {
+            shape: shape.names().0,
+            index,
         }
     }
 }
@@ -107,7 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         &cage,
         arguments.scheme,
         diagonals.as_ref(),
-        arguments.boundary,
+        arguments.scheme.boundary(arguments.boundary)?,
         arguments.levels,
     )
     .map_err(of_cage)?;

@@ -23,7 +23,7 @@ use std::process::ExitCode;
 
 /// Bakes smooth volumetric deformations for microcontrollers.
 ///
-/// A cage (a coarse mesh of tetrahedra and octahedra) and a model go in; a table of integer
+/// A cage (a coarse mesh of tetrahedra, octahedra, prisms and hexahedra) and a model go in; a table of integer
 /// weights comes out, which a device applies to the positions of the cage's vertices, the control
 /// points, to move the model. All coordinates are in the unit of the files, whatever that is;
 /// nothing is converted. Vertices, cells, points and frames are counted from 0. Results go to

@@ -4,7 +4,7 @@ use super::scheme as schemes;
 use super::{any_scheme::AnyScheme, print_figures, progress::Bars, refine_surface, show_notes};
 use octruss_bake::check::{self, Volumes};
 use octruss_bake::error::{Error, Result, count};
-use octruss_bake::mesh::{Features, SolidMesh};
+use octruss_bake::mesh::{Cells, Features, SolidMesh};
 use octruss_bake::progress::Progress;
 use octruss_bake::refine::{BoundaryRule, Channels, DiagonalLists, Level, Refinement, Scheme};
 use octruss_bake::surface::RimRule;
@@ -26,7 +26,7 @@ pub enum Numeric {
 ///
 /// The output is a solid as .vtu or .vtk (octahedra as polyhedra, all vertices in the refined order,
 /// with the labels of cells and the scalar channels of vertices), or its boundary as .obj, .ply or
-/// .off (the triangles and their vertices, in the refined order). None holds creases and corners:
+/// .off (triangles, quadrilaterals and their vertices, in the refined order). None holds creases and corners:
 /// refine once with all the levels wanted. A surface is written with all its polygons as .obj, .ply
 /// or .off; crease tags of .obj files are read as OpenSubdiv writes them.
 #[derive(clap::Args)]
@@ -44,9 +44,9 @@ pub struct Arguments {
     /// How many times to refine; a level has about eight times the cells of the one before
     #[arg(long, value_name = "K", default_value_t = 1)]
     pub levels: u32,
-    /// What the boundary of a solid follows
-    #[arg(long, value_enum, default_value_t)]
-    boundary: BoundaryRule,
+    /// What the boundary of a solid follows: loop by default, with --scheme mixed tri-quad
+    #[arg(long, value_enum)]
+    boundary: Option<BoundaryRule>,
     /// What the rim of an open surface follows
     #[arg(long, value_enum, default_value_t)]
     pub rim: RimRule,
@@ -78,7 +78,10 @@ struct Figures {
     vertices: usize,
     tetrahedra: usize,
     octahedra: usize,
+    prisms: usize,
+    hexahedra: usize,
     boundary_triangles: usize,
+    boundary_quadrilaterals: usize,
     sheet_triangles: usize,
     cells_without_volume: usize,
     /// Of `--numeric fixed`.
@@ -133,7 +136,7 @@ fn refine_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
             count(figures.saturated_coordinates, "coordinate", "coordinates")
         );
     }
-    print_figures(&figures, arguments.json, || words(&figures))
+    print_figures(&figures, arguments.json, || words(&figures, &refined.cells))
 }
 
 fn refine(
@@ -143,6 +146,7 @@ fn refine(
     arguments: &Arguments,
 ) -> Result<(SolidMesh, Level, Figures)> {
     check::require_sound_connectivity(&mesh)?;
+    let boundary = scheme.boundary(arguments.boundary)?.to_core();
     let mut level = Level::of_scheme(&mesh, scheme, diagonals)?;
     level.require_levels(arguments.levels)?;
     let format = match arguments.fraction_bits {
@@ -164,7 +168,7 @@ fn refine(
     let mut progress = Bars::default();
     progress.stage("refining", arguments.levels as usize);
     for _ in 0..arguments.levels {
-        let mut step = Refinement::new(&level, arguments.boundary.to_core())?;
+        let mut step = Refinement::new(&level, boundary)?;
         if is_fixed {
             bits = step.bits(&bits, &mut saturated)?;
         } else {
@@ -187,6 +191,7 @@ fn refine(
             corners: level.corners.clone(),
             faces: level.crease_faces().to_vec(),
             sheets: level.sheets().to_vec(),
+            quads: level.crease_quads().to_vec(),
         },
         labels,
         channels: channels.values(),
@@ -198,7 +203,10 @@ fn refine(
         vertices: refined.points.len(),
         tetrahedra: level.cells.tetrahedra.len(),
         octahedra: level.cells.octahedra.len(),
+        prisms: level.cells.prisms.len(),
+        hexahedra: level.cells.hexahedra.len(),
         boundary_triangles: level.boundary().len(),
+        boundary_quadrilaterals: level.boundary_quads().len(),
         sheet_triangles: level.sheets().len(),
         cells_without_volume: volumes.inverted.len() + volumes.flat.len() + volumes.folded.len(),
         fraction_bits: is_fixed.then_some(format.fraction_bits),
@@ -207,11 +215,19 @@ fn refine(
     Ok((refined, level, figures))
 }
 
-fn words(figures: &Figures) -> String {
+fn words(figures: &Figures, cells: &Cells) -> String {
     let mut text = format!(
-        "{} vertices, {} tetrahedra, {} octahedra, {} boundary triangles",
-        figures.vertices, figures.tetrahedra, figures.octahedra, figures.boundary_triangles
+        "{} vertices, {}, {} boundary triangles",
+        figures.vertices,
+        cells.words(),
+        figures.boundary_triangles
     );
+    if figures.boundary_quadrilaterals > 0 {
+        text += &format!(
+            ", {} boundary quadrilaterals",
+            figures.boundary_quadrilaterals
+        );
+    }
     if figures.sheet_triangles > 0 {
         text += &format!(", {} triangles of sheets", figures.sheet_triangles);
     }

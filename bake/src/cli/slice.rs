@@ -44,9 +44,9 @@ pub struct Arguments {
     /// How many times to refine
     #[arg(long, value_name = "K", default_value_t = 3)]
     levels: u32,
-    /// What the boundary follows
-    #[arg(long, value_enum, default_value_t)]
-    boundary: BoundaryRule,
+    /// What the boundary follows: loop by default, with --scheme mixed tri-quad
+    #[arg(long, value_enum)]
+    boundary: Option<BoundaryRule>,
     /// File with features: a line each, `crease A B`, `crease-face A B C` or `corner A`
     #[arg(long, value_name = "FILE")]
     features: Option<PathBuf>,
@@ -118,6 +118,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let plane = Plane::new(arguments.plane)?;
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
+    let boundary = arguments.scheme.boundary(arguments.boundary)?;
     let channels = channels(arguments, &mesh)?;
     let diagonals = scheme::diagonals(arguments.scheme, arguments.diagonals.as_deref(), &mesh)?;
     let of_mesh = |error: Error| error.in_file(&arguments.mesh);
@@ -129,7 +130,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let (_, last) = channels.last().cloned().unwrap_or_default();
     let cage = Field::new(&mesh, level, last).map_err(of_mesh)?;
     let refined = cage
-        .refined(arguments.levels, arguments.boundary, &mut progress)
+        .refined(arguments.levels, boundary, &mut progress)
         .map_err(of_mesh)?;
     let cut = refined
         .cut(plane, arguments.size as usize, &mut progress)
@@ -138,7 +139,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         let options = Options {
             scheme: arguments.scheme,
             diagonals,
-            boundary: arguments.boundary,
+            boundary,
             levels: arguments.levels,
             ..Options::default()
         };

@@ -3,7 +3,7 @@
 use super::{Embedding, Locator};
 use crate::check;
 use crate::error::{Error, Result, count};
-use crate::mesh::{Labels, Point, SolidMesh};
+use crate::mesh::{Labels, Point, Shape, SolidMesh};
 use crate::overlap;
 use crate::progress::Progress;
 use crate::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
@@ -50,11 +50,13 @@ impl RefinedCage {
         level.require_levels(levels)?;
         let (mut points, mut labels) = (cage.points.clone(), cage.labels.clone());
         // The number of a cell goes the way of its label.
-        let tetrahedra = cage.cells.tetrahedra.len();
-        let numbers = |from: usize, to: usize| (from..to).map(|number| number as i32).collect();
+        let mut next = 0_i32..;
+        let mut numbers = |shape| next.by_ref().take(cage.cells.count(shape)).collect();
         let mut ancestors = Labels {
-            tetrahedra: numbers(0, tetrahedra),
-            octahedra: numbers(tetrahedra, cage.cells.len()),
+            tetrahedra: numbers(Shape::Tetrahedron),
+            octahedra: numbers(Shape::Octahedron),
+            prisms: numbers(Shape::Prism),
+            hexahedra: numbers(Shape::Hexahedron),
         };
         for _ in 0..levels {
             let mut step = Refinement::new(&level, boundary.to_core())?;
@@ -95,7 +97,8 @@ impl RefinedCage {
         outside: Outside,
         progress: &mut dyn Progress,
     ) -> Result<Vec<Located>> {
-        let locator = Locator::new(&self.level.cells, self.level.boundary(), &self.points);
+        let boundary = self.level.boundary_faces();
+        let locator = Locator::new(&self.level.cells, &boundary, &self.points);
         progress.stage("locating points", points.len());
         let mut located = Vec::with_capacity(points.len());
         for (index, point) in points.iter().enumerate() {
@@ -145,11 +148,7 @@ impl RefinedCage {
     }
 
     fn located(&self, cell: usize, embedding: &Embedding, distance: f64) -> Located {
-        let cells = &self.level.cells;
-        let corners: &[u32] = match cell.checked_sub(cells.tetrahedra.len()) {
-            None => &cells.tetrahedra[cell],
-            Some(octahedron) => &cells.octahedra[octahedron],
-        };
+        let corners = self.level.cells.corners_of(cell);
         let weight = |corner: &u32| {
             let found = embedding.iter().find(|(vertex, _)| vertex == corner);
             found.map_or(0.0, |(_, weight)| *weight)

@@ -6,6 +6,7 @@
 //! boundary; who asks decides what becomes of it ([`Nearest`]).
 
 mod cage;
+pub mod curved;
 mod nearest;
 pub mod octahedron;
 pub mod tetrahedron;
@@ -14,7 +15,7 @@ pub use cage::{Located, RefinedCage};
 pub use nearest::Nearest;
 
 use crate::geometry::bounds;
-use crate::mesh::{Cells, Point};
+use crate::mesh::{Cells, Faces, Point};
 use nearest::BoundaryIndex;
 use octahedron::Octahedron;
 use rstar::RTree;
@@ -30,15 +31,15 @@ type CellBox = GeomWithData<Rectangle<Point>, usize>;
 /// A spatial index over the cells of a solid.
 pub struct Locator<'a> {
     cells: &'a Cells,
-    surface: &'a [[u32; 3]],
+    surface: &'a Faces,
     points: &'a [Point],
     tree: RTree<CellBox>,
     boundary: OnceCell<BoundaryIndex>,
 }
 
 impl<'a> Locator<'a> {
-    /// Indexes the cells. `surface` are the boundary triangles, `points` the positions.
-    pub fn new(cells: &'a Cells, surface: &'a [[u32; 3]], points: &'a [Point]) -> Self {
+    /// Indexes the cells. `surface` is the boundary, `points` the positions.
+    pub fn new(cells: &'a Cells, surface: &'a Faces, points: &'a [Point]) -> Self {
         let boxes = cells.corners().enumerate().filter_map(|(cell, corners)| {
             let [low, high] = bounds(corners.iter().map(|corner| &points[*corner as usize]))?;
             Some(CellBox::new(Rectangle::from_corners(low, high), cell))
@@ -77,7 +78,7 @@ impl<'a> Locator<'a> {
     pub fn nearest(&self, point: Point) -> Option<Nearest> {
         let index = self
             .boundary
-            .get_or_init(|| BoundaryIndex::new(self.surface, self.points));
+            .get_or_init(|| BoundaryIndex::new(&self.surface.triangles, self.points));
         index.nearest(point)
     }
 
@@ -95,7 +96,7 @@ impl<'a> Locator<'a> {
             }
             Some(cell) => {
                 let corners = &self.cells.octahedra[cell];
-                let face = self.surface[nearest.triangle];
+                let face = self.surface.triangles[nearest.triangle];
                 let place = |vertex| corners.iter().position(|corner| *corner == vertex);
                 let local = face.map(|vertex| place(vertex).unwrap_or(0));
                 let shape = Octahedron::new(self.positions(corners));
@@ -106,13 +107,10 @@ impl<'a> Locator<'a> {
 
     /// The cell whose face `nearest` lies on, as a place in [`Cells::corners`].
     pub fn cell_behind(&self, nearest: &Nearest) -> Option<usize> {
-        let face = self.surface[nearest.triangle];
+        let face = self.surface.triangles[nearest.triangle];
         let middle = nearest.middle(face.map(|vertex| self.points[vertex as usize]));
         let holds_face = |cell: &usize| {
-            let corners: &[u32] = match cell.checked_sub(self.cells.tetrahedra.len()) {
-                None => &self.cells.tetrahedra[*cell],
-                Some(octahedron) => &self.cells.octahedra[octahedron],
-            };
+            let corners = self.cells.corners_of(*cell);
             face.iter().all(|vertex| corners.contains(vertex))
         };
         // The cell's box holds its face, and so the middle of it.
@@ -125,7 +123,7 @@ impl<'a> Locator<'a> {
 
     /// The nearest point itself, as a weighted sum of its triangle's corners.
     pub fn projected(&self, nearest: &Nearest) -> Embedding {
-        embedding(&self.surface[nearest.triangle], nearest.weights)
+        embedding(&self.surface.triangles[nearest.triangle], nearest.weights)
     }
 
     fn positions<const N: usize>(&self, corners: &[u32; N]) -> [Point; N] {

@@ -13,7 +13,7 @@ mod view;
 pub use view::View;
 
 use crate::error::{Error, Result};
-use crate::mesh::Point;
+use crate::mesh::{Faces, Point};
 use paint::Painter;
 use std::collections::BTreeSet;
 use tiny_skia::{Color, Pixmap, PixmapPaint, Transform};
@@ -68,10 +68,16 @@ const MARGIN: u32 = 12;
 
 /// The edges of these triangles, each once. Of a cage, those of its boundary make the clearest
 /// picture.
-pub fn edges_of(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let sides = triangles
+pub fn edges_of(faces: &Faces) -> Vec<[u32; 2]> {
+    let sides = faces
+        .triangles
         .iter()
         .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let of_quads = faces
+        .quads
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b], [b, c], [c, d], [d, a]]);
+    let sides = sides.chain(of_quads);
     let edges: BTreeSet<[u32; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
     edges.into_iter().collect()
 }

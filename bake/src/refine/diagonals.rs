@@ -79,6 +79,8 @@ pub enum Interior {
     BoxSpline(DiagonalLists),
     /// The averaged box spline.
     BoxSplineAveraged,
+    /// Unzipped, split and averaged cells of all shapes.
+    Mixed,
 }
 
 impl Interior {
@@ -91,6 +93,7 @@ impl Interior {
         Ok(match (scheme, given) {
             (Scheme::TetOct, _) => Self::TetOct,
             (Scheme::BoxSplineAveraged, _) => Self::BoxSplineAveraged,
+            (Scheme::Mixed, _) => Self::Mixed,
             (Scheme::BoxSpline, None) => Self::BoxSpline(DiagonalLists::choose(solid)?),
             (Scheme::BoxSpline, Some(given)) => {
                 given.view().check(solid).map_err(mesh_error)?;

@@ -1,9 +1,12 @@
 //! One level of a solid in memory, and the step to the next.
 
+use super::counts::MixedLevelCounts;
+use super::crease_faces::{inside_faces, require_no_cell_has};
+use super::mixed::{self, MixedMemory};
 use super::{DiagonalLists, Interior, RealBlend, Scheme};
-use crate::error::{Error, Result};
-use crate::mesh::{Cells, Point, SolidMesh, Vertex};
-use octruss::blend::{Blend, FixedBlend};
+use crate::error::{Error, Result, count};
+use crate::mesh::{Cells, Faces, Point, Shape, SolidMesh};
+use octruss::blend::{FixedBlend, GuardedBlend};
 use octruss::mesh::{
     Counts, MeshError, Numbering, Part, Solid, SolidBuffers, boundary_triangles, edge_capacity,
     face_capacity,
@@ -29,6 +32,11 @@ pub struct Level {
     pub boundary_count: usize,
     /// How many triangles behind those are of crease surfaces.
     pub crease_face_count: usize,
+    /// Boundary quadrilaterals, counter-clockwise from outside, and behind them those of crease
+    /// surfaces inside.
+    pub surface_quads: Vec<[u32; 4]>,
+    /// How many quadrilaterals of `surface_quads` are on the boundary.
+    pub boundary_quad_count: usize,
     /// Crease edges.
     pub creases: Vec<[u32; 2]>,
     /// Corners.
@@ -40,11 +48,17 @@ pub struct Level {
 impl Level {
     /// The solid as it stands in its file, with its boundary found, for a scheme. Box splines
     /// take the diagonals that are given, or choose them.
+    ///
+    /// # Errors
+    /// If the connectivity is none of a solid, or the scheme does not take all of the cells.
     pub fn of_scheme(
         mesh: &SolidMesh,
         scheme: Scheme,
         diagonals: Option<&DiagonalLists>,
     ) -> Result<Self> {
+        if scheme != Scheme::Mixed {
+            require_tetrahedral(&mesh.cells, scheme)?;
+        }
         let mut level = Self::new(mesh)?;
         level.interior = Interior::new(scheme, &level.solid(), diagonals)?;
         Ok(level)
@@ -55,34 +69,37 @@ impl Level {
     pub fn improper_faces(&self) -> Result<Vec<[u32; 3]>> {
         match &self.interior {
             Interior::BoxSpline(diagonals) => diagonals.improper(&self.solid()),
-            Interior::TetOct | Interior::BoxSplineAveraged => Ok(Vec::new()),
+            Interior::TetOct | Interior::BoxSplineAveraged | Interior::Mixed => Ok(Vec::new()),
         }
     }
 
-    /// The solid as it stands in its file, with its boundary found, for the scheme tet-oct.
+    /// The solid as it stands in its file, with its boundary found: for the scheme tet-oct, or for
+    /// mixed if it has prisms or hexahedra.
+    ///
+    /// # Errors
+    /// If the connectivity is none of a solid.
     pub fn new(mesh: &SolidMesh) -> Result<Self> {
         let vertex_count = u32::try_from(mesh.points.len())
             .map_err(|_| Error::new("the mesh has more than 2^32 - 1 vertices"))?;
         let mut level = Self {
             vertex_count,
             cells: mesh.cells.clone(),
-            surface: Vec::new(),
-            boundary_count: 0,
-            crease_face_count: 0,
             creases: mesh.features.creases.clone(),
             corners: mesh.features.corners.clone(),
-            interior: Interior::TetOct,
+            ..Self::default()
         };
-        let solid = level.solid();
-        let faces = face_capacity(&solid).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
-        let mut scratch = vec![[0; 3]; faces];
-        level.surface = boundary_triangles(&solid, &mut scratch)
-            .map_err(mesh_error)?
-            .to_vec();
-        level.boundary_count = level.surface.len();
-        let inside = inside_faces(mesh, &level.surface)?;
-        level.crease_face_count = inside.len();
-        level.surface.extend(inside);
+        let boundary = if level.cells.is_tetrahedral() {
+            boundary_of(&level.solid())?
+        } else {
+            level.interior = Interior::Mixed;
+            mixed::boundary_of(&level.solid())?
+        };
+        let inside = inside_faces(mesh, &boundary)?;
+        level.boundary_count = boundary.triangles.len();
+        level.boundary_quad_count = boundary.quads.len();
+        level.crease_face_count = inside.triangles.len();
+        level.surface = [boundary.triangles, inside.triangles].concat();
+        level.surface_quads = [boundary.quads, inside.quads].concat();
         require_no_cell_has(mesh)?;
         level.surface.extend(&mesh.features.sheets);
         // Without a rule of their own the open edges of a sheet would shrink.
@@ -90,7 +107,7 @@ impl Level {
         level.creases.sort_unstable();
         level.creases.dedup();
         // Checks that every crease is an edge of a cell before any work is done.
-        EdgeMemory::new(&level.solid())?.number(&level.solid())?;
+        Memory::new(&level)?.check(&level)?;
         Ok(level)
     }
 
@@ -110,13 +127,26 @@ impl Level {
     }
 
     /// What is seen from outside: the boundary, then the sheets.
-    pub fn skin(&self) -> Vec<[u32; 3]> {
-        [self.boundary(), self.sheets()].concat()
+    pub fn skin(&self) -> Faces {
+        Faces {
+            triangles: [self.boundary(), self.sheets()].concat(),
+            quads: self.boundary_quads().to_vec(),
+        }
+    }
+
+    /// The boundary alone.
+    pub fn boundary_faces(&self) -> Faces {
+        Faces {
+            triangles: self.boundary().to_vec(),
+            quads: self.boundary_quads().to_vec(),
+        }
     }
 
     /// Error if sheets hang on the boundary, whose shape then is not its own business alone.
     pub fn require_bare_boundary(&self) -> Result<()> {
-        let boundary: HashSet<u32> = self.boundary().iter().flatten().copied().collect();
+        let triangles = self.boundary().as_flattened().iter();
+        let quads = self.boundary_quads().as_flattened().iter();
+        let boundary: HashSet<u32> = triangles.chain(quads).copied().collect();
         let mut corners = self.sheets().iter().flatten();
         match corners.find(|corner| boundary.contains(corner)) {
             Some(corner) => Err(Error::new(format!(
@@ -130,11 +160,22 @@ impl Level {
     /// Edges of a sheet that no other triangle of a surface has, ends ascending.
     fn open_edges(&self) -> Vec<[u32; 2]> {
         let mut uses: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-        for edge in self.surface.iter().flat_map(edges_of) {
+        let of_quads = self.surface_quads.iter().flat_map(edges_of_quad);
+        for edge in self.surface.iter().flat_map(edges_of).chain(of_quads) {
             *uses.entry(edge).or_default() += 1;
         }
         let edges = self.sheets().iter().flat_map(edges_of);
         edges.filter(|edge| uses.get(edge) == Some(&1)).collect()
+    }
+
+    /// The boundary quadrilaterals, counter-clockwise from outside.
+    pub fn boundary_quads(&self) -> &[[u32; 4]] {
+        &self.surface_quads[..self.boundary_quad_count]
+    }
+
+    /// The quadrilaterals of crease surfaces inside.
+    pub fn crease_quads(&self) -> &[[u32; 4]] {
+        &self.surface_quads[self.boundary_quad_count..]
     }
 
     /// The view that core takes.
@@ -143,16 +184,18 @@ impl Level {
             vertex_count: self.vertex_count,
             tetrahedra: &self.cells.tetrahedra,
             octahedra: &self.cells.octahedra,
+            prisms: &self.cells.prisms,
+            hexahedra: &self.cells.hexahedra,
             surface: &self.surface,
+            surface_quads: &self.surface_quads,
             creases: &self.creases,
             corners: &self.corners,
-            ..Solid::default()
         }
     }
 
     /// Error if refining so many times would take more memory than is sensible.
     pub fn require_levels(&self, levels: u32) -> Result<()> {
-        let mut counts = self.counts()?;
+        let mut counts = MixedLevelCounts::of(self)?;
         for level in 1..=levels {
             match counts.refined() {
                 Some(refined) if refined.vertices <= MOST_VERTICES => counts = refined,
@@ -169,7 +212,10 @@ impl Level {
         Ok(())
     }
 
-    /// Numbers of everything, edges and faces included.
+    /// Numbers of everything, edges and faces included, of a solid of tetrahedra and octahedra.
+    ///
+    /// # Errors
+    /// If the connectivity is none of such a solid.
     pub fn counts(&self) -> Result<Counts> {
         let solid = self.solid();
         let mut memory = EdgeMemory::new(&solid)?;
@@ -197,53 +243,71 @@ const MOST_VERTICES: usize = 1 << 27;
 /// A triangle splits into four, which follow one another.
 const FACE_CHILDREN: usize = 4;
 
-/// The crease faces that lie inside the solid.
-fn inside_faces(mesh: &SolidMesh, boundary: &[[Vertex; 3]]) -> Result<Vec<[Vertex; 3]>> {
-    if mesh.features.faces.is_empty() {
-        return Ok(Vec::new());
+/// Error if there are cells that the tetrahedral schemes do not know.
+fn require_tetrahedral(cells: &Cells, scheme: Scheme) -> Result<()> {
+    let foreign = [Shape::Prism, Shape::Hexahedron];
+    let words: Vec<String> = foreign
+        .into_iter()
+        .filter(|shape| cells.count(*shape) > 0)
+        .map(|shape| {
+            let (singular, plural) = shape.names();
+            count(cells.count(shape), singular, plural)
+        })
+        .collect();
+    if words.is_empty() {
+        return Ok(());
     }
-    let sorted = |mut face: [Vertex; 3]| {
-        face.sort_unstable();
-        face
-    };
-    let of_cells: HashSet<[Vertex; 3]> = crate::check::faces(mesh).map(sorted).collect();
-    let on_boundary: HashSet<[Vertex; 3]> = boundary.iter().copied().map(sorted).collect();
-    let faces = &mesh.features.faces;
-    if let Some([a, b, c]) = faces
-        .iter()
-        .find(|face| !of_cells.contains(&sorted(**face)))
-    {
-        return Err(Error::new(format!(
-            "the crease face of vertices {a}, {b} and {c} (counted from 0) is no face of a cell"
-        ))
-        .advise("a crease surface runs along faces of the mesh; mesh the surface together with the volume"));
-    }
-    let inside = faces
-        .iter()
-        .filter(|face| !on_boundary.contains(&sorted(**face)));
-    Ok(inside.copied().collect())
+    Err(Error::new(format!(
+        "the mesh has {}; a cage of the scheme {} consists of tetrahedra and octahedra",
+        words.join(" and "),
+        scheme.name()
+    ))
+    .advise("add --scheme mixed, or mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)"))
 }
 
-/// Error if a triangle of a sheet is a face of a cell.
-fn require_no_cell_has(mesh: &SolidMesh) -> Result<()> {
-    let sorted = |mut face: [Vertex; 3]| {
-        face.sort_unstable();
-        face
-    };
-    let sheets: HashSet<[Vertex; 3]> = mesh.features.sheets.iter().copied().map(sorted).collect();
-    let mut faces = crate::check::faces(mesh).map(sorted);
-    match faces.find(|face| sheets.contains(face)) {
-        Some([a, b, c]) => Err(Error::new(format!(
-            "the sheet's triangle of vertices {a}, {b} and {c} (counted from 0) is a face of a cell"
-        ))
-        .advise("sheets hang on a solid by edges and vertices; inside it or on its boundary a surface is a crease surface")),
-        None => Ok(()),
+/// Memory for the numbering of one split, of either kind of scheme.
+enum Memory {
+    Tetrahedral(EdgeMemory),
+    Mixed(MixedMemory),
+}
+
+impl Memory {
+    fn new(level: &Level) -> Result<Self> {
+        let solid = level.solid();
+        match level.interior {
+            Interior::Mixed => MixedMemory::new(&solid).map(Self::Mixed),
+            _ => EdgeMemory::new(&solid).map(Self::Tetrahedral),
+        }
+    }
+
+    fn check(&mut self, level: &Level) -> Result<()> {
+        let solid = level.solid();
+        match self {
+            Self::Tetrahedral(memory) => memory.number(&solid).map(|_| ()),
+            Self::Mixed(memory) => memory.number(&solid).map(|_| ()),
+        }
     }
 }
 
 /// The edges of a triangle, ends ascending.
 fn edges_of(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+}
+
+/// The boundary that core finds.
+fn boundary_of(solid: &Solid<'_>) -> Result<Faces> {
+    let capacity = face_capacity(solid).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
+    let mut scratch = vec![[0; 3]; capacity];
+    let triangles = boundary_triangles(solid, &mut scratch).map_err(mesh_error)?;
+    Ok(Faces {
+        triangles: triangles.to_vec(),
+        quads: Vec::new(),
+    })
+}
+
+/// The edges of a quadrilateral, ends ascending.
+fn edges_of_quad(&[a, b, c, d]: &[u32; 4]) -> [[u32; 2]; 4] {
+    [[a, b], [b, c], [c, d], [d, a]].map(|[a, b]| [a.min(b), a.max(b)])
 }
 
 /// Memory for the numbering of one split.
@@ -269,24 +333,34 @@ impl EdgeMemory {
 /// A step from one level to the next: any values may be taken along it.
 pub struct Refinement<'a> {
     from: &'a Level,
-    memory: EdgeMemory,
+    memory: Memory,
     boundary: Boundary,
 }
 
 impl<'a> Refinement<'a> {
     /// Prepares the step from `from`.
+    ///
+    /// # Errors
+    /// If the boundary rule is none of the scheme's.
     pub fn new(from: &'a Level, boundary: Boundary) -> Result<Self> {
+        if from.interior == Interior::Mixed {
+            mixed::mixed_boundary(boundary)?;
+        }
         Ok(Self {
             from,
-            memory: EdgeMemory::new(&from.solid())?,
+            memory: Memory::new(from)?,
             boundary,
         })
     }
 
     /// The connectivity of the next level.
     pub fn split(&mut self) -> Result<Level> {
+        let memory = match &mut self.memory {
+            Memory::Tetrahedral(memory) => memory,
+            Memory::Mixed(memory) => return mixed::split_level(self.from, memory),
+        };
         let solid = self.from.solid();
-        let numbering = self.memory.number(&solid)?;
+        let numbering = memory.number(&solid)?;
         let counts =
             split_counts(&solid, &numbering).ok_or_else(|| mesh_error(MeshError::TooLarge))?;
         let mut next = Level {
@@ -294,10 +368,13 @@ impl<'a> Refinement<'a> {
             cells: Cells {
                 tetrahedra: vec![[0; 4]; counts.tetrahedra],
                 octahedra: vec![[0; 6]; counts.octahedra],
+                ..Cells::default()
             },
             surface: vec![[0; 3]; counts.surface],
             boundary_count: FACE_CHILDREN * self.from.boundary_count,
             crease_face_count: FACE_CHILDREN * self.from.crease_face_count,
+            surface_quads: Vec::new(),
+            boundary_quad_count: 0,
             creases: vec![[0; 2]; counts.creases],
             corners: vec![0; counts.corners],
             interior: match &self.from.interior {
@@ -319,11 +396,17 @@ impl<'a> Refinement<'a> {
     }
 
     /// The values at the next level's vertices.
-    pub fn values<B: Blend>(
+    pub fn values<B: GuardedBlend>(
         &mut self,
         blend: &mut B,
         values: &[B::Point],
     ) -> Result<Vec<B::Point>> {
+        let memory = match &mut self.memory {
+            Memory::Tetrahedral(memory) => memory,
+            Memory::Mixed(memory) => {
+                return mixed::values(self.from, memory, self.boundary, blend, values);
+            }
+        };
         let mut solid = self.from.solid();
         let mut boundary = self.boundary;
         let inside_and_sheets = &self.from.surface[self.from.boundary_count..];
@@ -332,7 +415,7 @@ impl<'a> Refinement<'a> {
             solid.surface = inside_and_sheets;
             boundary = Boundary::Surface(LoopWeights::Loop);
         }
-        let numbering = self.memory.number(&solid)?;
+        let numbering = memory.number(&solid)?;
         let length = numbering.vertex_count() as usize;
         let zero = blend.zero();
         let mut out = vec![blend.divide(&zero, 1); length];
@@ -342,7 +425,7 @@ impl<'a> Refinement<'a> {
             states: &mut vec![VertexState::default(); length],
         };
         let scheme = match &self.from.interior {
-            Interior::TetOct => {
+            Interior::TetOct | Interior::Mixed => {
                 refine_points(blend, &solid, &numbering, boundary, values, buffers)
                     .map_err(mesh_error)?;
                 return Ok(out);
@@ -407,6 +490,12 @@ pub(super) fn mesh_error(error: MeshError) -> Error {
         } => Error::new(format!(
             "{given} major diagonals are given for cells of the kind {part}, of which there are {needed}"
         )),
+        MeshError::CrossedDiagonals {
+            corners: [a, b, c, d],
+        } => Error::new(format!(
+            "triangles of cells lie on the quadrilateral face {a}-{b}-{c}-{d} (vertices counted from 0) along both of its diagonals"
+        ))
+        .advise("cut what lies on the face along one diagonal"),
         MeshError::TooLarge => Error::new("the refined mesh needs more than 2^32 - 1 vertices")
             .advise("take fewer levels"),
         other => Error::new(other.to_string()),

@@ -5,16 +5,22 @@
 //! only the host has: double precision ([`RealBlend`]) and sparse rows ([`rows`]).
 
 mod channels;
+mod counts;
+mod crease_faces;
 mod diagonals;
 mod level;
+mod mixed;
 mod real;
 pub mod rows;
 
 pub use channels::Channels;
+pub use counts::MixedLevelCounts;
 pub use diagonals::{DiagonalLists, Interior};
 pub use level::{Level, Refinement};
 pub use real::RealBlend;
 
+use crate::error::Result;
+use clap::ValueEnum;
 use octruss::solid::tet_oct::Boundary;
 use octruss::surface::LoopWeights;
 
@@ -71,9 +77,37 @@ pub enum Scheme {
     BoxSpline,
     /// Box-spline solids averaged over the three diagonals (Chang, Qin, appendix A)
     BoxSplineAveraged,
+    /// Smooth subdivision of tetrahedra, octahedra, prisms and hexahedra together (Hakenberg)
+    Mixed,
 }
 
 impl Scheme {
+    /// Its name on the command line.
+    pub fn name(self) -> String {
+        let value = self.to_possible_value();
+        value.map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+
+    /// What the boundary follows where nothing else was asked for.
+    pub fn default_boundary(self) -> BoundaryRule {
+        match self {
+            Self::Mixed => BoundaryRule::TriQuad,
+            Self::TetOct | Self::BoxSpline | Self::BoxSplineAveraged => BoundaryRule::Loop,
+        }
+    }
+
+    /// The boundary rule that was asked for, or the scheme's own.
+    ///
+    /// # Errors
+    /// If the scheme does not know the rule.
+    pub fn boundary(self, asked: Option<BoundaryRule>) -> Result<BoundaryRule> {
+        let rule = asked.unwrap_or(self.default_boundary());
+        if self == Self::Mixed {
+            mixed::mixed_boundary(rule.to_core())?;
+        }
+        Ok(rule)
+    }
+
     /// The scheme's number in a bundle's header.
     pub fn code(self) -> u32 {
         use octruss::bundle as b;
@@ -81,6 +115,7 @@ impl Scheme {
             Self::TetOct => b::SCHEME_TET_OCT,
             Self::BoxSpline => b::SCHEME_BOX_SPLINE,
             Self::BoxSplineAveraged => b::SCHEME_BOX_SPLINE_AVERAGED,
+            Self::Mixed => b::SCHEME_MIXED,
         }
     }
 }

@@ -3,8 +3,8 @@
 //! One level's matrix comes out of core's own rules, run over rows instead of points. A product
 //! of matrices is formed only for the rows that somebody needs ([`compose`]).
 
-use super::real::{WEIGHT_ONE, real_weight};
-use octruss::blend::{Blend, IrrationalWeight, NeighbourWeight};
+use super::real::{WEIGHT_ONE, distortion_divisor, real_weight};
+use octruss::blend::{Blend, Distortion, GuardedBlend, IrrationalWeight, NeighbourWeight};
 
 /// A linear combination: columns with their weights. Columns of a finished row ascend.
 pub type Row = Vec<(u32, f64)>;
@@ -50,6 +50,44 @@ impl Blend for RowBlend {
         add_scaled(&mut row, 1.0 - valence as f64 * weight, own);
         add_scaled(&mut row, weight, ring);
         finished(row)
+    }
+}
+
+/// Weights have no grid, so a guarded row is the row.
+impl GuardedBlend for RowBlend {
+    type Guarded = Row;
+    type GuardedSum = Row;
+
+    fn guard(&self, point: &Row) -> Row {
+        point.clone()
+    }
+
+    fn distort(&self, own: &Row, parts: &[Distortion<'_, Row>], denominator: u32) -> Row {
+        let mut row = own.clone();
+        for part in parts.iter().filter(|part| part.count != 0) {
+            add_scaled(
+                &mut row,
+                1.0 / distortion_divisor(part, denominator),
+                part.sum,
+            );
+        }
+        row
+    }
+
+    fn guarded_zero(&self) -> Row {
+        self.zero()
+    }
+
+    fn add_guarded(&self, sum: &mut Row, weight: i64, value: &Row) {
+        self.add(sum, weight, value);
+    }
+
+    fn add_guarded_sum(&self, sum: &mut Row, weight: i64, other: &Row) {
+        self.add_sum(sum, weight, other);
+    }
+
+    fn divide_guarded(&mut self, sum: &Row, denominator: i64) -> Row {
+        self.divide(sum, denominator)
     }
 }
 

@@ -14,7 +14,7 @@ pub use over_time::{Moment, Places, over_time};
 use crate::error::{Error, Result};
 use crate::geometry::bounds;
 use crate::locate::{Embedding, Locator};
-use crate::mesh::{Point, SolidMesh};
+use crate::mesh::{Faces, Point, SolidMesh};
 use crate::progress::Progress;
 use crate::refine::{BoundaryRule, Level, Refinement};
 
@@ -155,8 +155,8 @@ impl Field {
         Ok(field)
     }
 
-    fn locator(&self) -> Locator<'_> {
-        Locator::new(&self.level.cells, self.level.boundary(), &self.points)
+    fn locator<'a>(&'a self, boundary: &'a Faces) -> Locator<'a> {
+        Locator::new(&self.level.cells, boundary, &self.points)
     }
 
     fn value(&self, embedding: &Embedding) -> f64 {
@@ -197,7 +197,8 @@ impl Field {
         let side = (high[0] - low[0]).max(high[1] - low[1]) * 1.04;
         let start = [0, 1].map(|k| (low[k] + high[k] - side) / 2.0);
         let step = side / (size - 1) as f64;
-        let locator = self.locator();
+        let boundary = self.level.boundary_faces();
+        let locator = self.locator(&boundary);
         let mut values = Vec::with_capacity(size * size);
         progress.stage("cutting", size);
         for row in 0..size {
@@ -249,7 +250,8 @@ impl Field {
     /// The values at `count` points that part a segment evenly, both ends included; `None` outside
     /// the solid.
     pub fn along(&self, ends: [Point; 2], count: usize) -> Vec<Option<f64>> {
-        let locator = self.locator();
+        let boundary = self.level.boundary_faces();
+        let locator = self.locator(&boundary);
         (0..count)
             .map(|place| {
                 let found = locator.inside(on_line(ends, place, count));

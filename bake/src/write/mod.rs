@@ -8,10 +8,11 @@ pub mod obj;
 pub mod off;
 pub mod ply;
 pub mod vtk;
+mod vtk_cells;
 pub mod vtu;
 
 use crate::error::{Error, Result};
-use crate::mesh::{Point, SolidMesh};
+use crate::mesh::{Faces, Point, SolidMesh};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -64,18 +65,19 @@ pub fn require_surface_extension(file: &Path) -> Result<()> {
         .in_file(file))
 }
 
-/// Writes triangles and only those vertices that they use, in their order.
+/// Writes triangles, then quadrilaterals, and only those vertices that they use, in their order.
 ///
 /// # Errors
 /// As [`surface`].
 pub fn boundary(
     extension: &str,
     points: &[Point],
-    triangles: &[[u32; 3]],
+    faces: &Faces,
     out: &mut dyn Write,
 ) -> Result<()> {
     let mut used = vec![false; points.len()];
-    for vertex in triangles.iter().flatten() {
+    let (triangles, quads) = (&faces.triangles, &faces.quads);
+    for vertex in triangles.as_flattened().iter().chain(quads.as_flattened()) {
         used[*vertex as usize] = true;
     }
     let mut kept = Vec::new();
@@ -86,11 +88,15 @@ pub fn boundary(
             kept.push(*point);
         }
     }
-    let renumbered: Vec<[u32; 3]> = triangles
-        .iter()
-        .map(|triangle| triangle.map(|vertex| new_index[vertex as usize]))
+    let renumber = |face: &[u32]| -> Vec<u32> {
+        let vertices = face.iter();
+        vertices.map(|vertex| new_index[*vertex as usize]).collect()
+    };
+    let triangles = triangles.iter().map(|face| renumber(face));
+    let renumbered: Vec<Vec<u32>> = triangles
+        .chain(quads.iter().map(|face| renumber(face)))
         .collect();
-    let faces: Vec<&[u32]> = renumbered.iter().map(<[u32; 3]>::as_slice).collect();
+    let faces: Vec<&[u32]> = renumbered.iter().map(Vec::as_slice).collect();
     surface(extension, &kept, &faces, out)
 }
 

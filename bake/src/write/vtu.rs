@@ -1,18 +1,20 @@
 //! Solids as VTK XML unstructured grids (`.vtu`), ASCII.
 //!
+//! Prisms are wedges (type 13), whose triangles VTK turns the other way, and hexahedra have type 12.
 //! Octahedra are polyhedra (type 42) with the arrays `faces` and `faceoffsets`, which every version
 //! of VTK since 5.10 reads. Coordinates have the fewest digits that give the same double back.
 
 use super::failed;
+use super::vtk_cells::{elements, labels};
 use crate::error::Result;
 use crate::mesh::SolidMesh;
 use octruss::mesh::OCTAHEDRON_FACES;
 use std::fmt::Display;
 use std::io::Write;
 
-/// Writes points and cells: all tetrahedra, then all octahedra, then the triangles of sheets; labels
-/// as the data `label` of the cells (0 on sheets), channels as data of the points. Other features are
-/// not part of the format.
+/// Writes points and cells in the order of [`crate::mesh::Cells::iter`], then the triangles of sheets;
+/// labels as the data `label` of the cells (0 on sheets), channels as data of the points. Other
+/// features are not part of the format.
 pub fn write(mesh: &SolidMesh, out: &mut dyn Write) -> Result<()> {
     write_grid(mesh, out).map_err(failed)
 }
@@ -40,39 +42,19 @@ fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         points,
     )?;
     writeln!(out, "</Points>\n<Cells>")?;
-    array(out, "type=\"Int64\" Name=\"connectivity\"", elements(mesh))?;
+    let corners = elements(mesh).map(|element| element.corners);
+    array(out, "type=\"Int64\" Name=\"connectivity\"", corners)?;
     let ends = elements(mesh).scan(0_usize, |end, element| {
-        *end += element.len();
+        *end += element.corners.len();
         Some([*end])
     });
     array(out, "type=\"Int64\" Name=\"offsets\"", ends)?;
-    let types = elements(mesh).map(|element| [cell_type(element.len())]);
+    let types = elements(mesh).map(|element| [element.kind]);
     array(out, "type=\"UInt8\" Name=\"types\"", types)?;
     if !cells.octahedra.is_empty() {
         polyhedra(mesh, out)?;
     }
     writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
-}
-
-/// The corners of all that is written: the cells, then the triangles of sheets.
-pub(super) fn elements(mesh: &SolidMesh) -> impl Iterator<Item = &[u32]> {
-    let sheets = mesh.features.sheets.iter().map(|sheet| sheet.as_slice());
-    mesh.cells.corners().chain(sheets)
-}
-
-/// The labels of all that is written.
-pub(super) fn labels(mesh: &SolidMesh) -> impl Iterator<Item = i32> {
-    let sheets = mesh.features.sheets.iter().map(|_| 0);
-    mesh.labels.iter().chain(sheets)
-}
-
-/// VTK's number of a cell with so many corners.
-pub(super) fn cell_type(corners: usize) -> u8 {
-    match corners {
-        3 => 5,
-        4 => 10,
-        _ => 42,
-    }
 }
 
 /// Channels and labels.
@@ -124,11 +106,13 @@ fn polyhedra(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
     array(out, "type=\"Int64\" Name=\"faces\"", stream)?;
     let no_polyhedra = mesh.cells.tetrahedra.iter().map(|_| [-1_i64]);
     let ends = (1..=mesh.cells.octahedra.len()).map(|number| [(number * STREAM) as i64]);
-    let sheets = mesh.features.sheets.iter().map(|_| [-1_i64]);
+    let others = elements(mesh)
+        .skip(mesh.cells.tetrahedra.len() + mesh.cells.octahedra.len())
+        .map(|_| [-1_i64]);
     array(
         out,
         "type=\"Int64\" Name=\"faceoffsets\"",
-        no_polyhedra.chain(ends).chain(sheets),
+        no_polyhedra.chain(ends).chain(others),
     )
 }
 

@@ -15,6 +15,8 @@ pub const SCHEME_TET_OCT: u32 = 1;
 pub const SCHEME_BOX_SPLINE: u32 = 2;
 /// [`Header::scheme`]: the averaged box-spline scheme.
 pub const SCHEME_BOX_SPLINE_AVERAGED: u32 = 3;
+/// [`Header::scheme`]: tetrahedra, octahedra, prisms and hexahedra together.
+pub const SCHEME_MIXED: u32 = 4;
 
 /// [`Header::scheme`]: Loop's surfaces. The codes of surfaces are 16 to 22.
 pub const SCHEME_LOOP: u32 = 16;

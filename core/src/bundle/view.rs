@@ -6,10 +6,9 @@ use zerocopy::FromBytes;
 
 use super::error::BundleError;
 use super::header::{
-    BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, RIM_FIXED, RIM_SPLINE,
-    SCHEME_BOX_SPLINE_AVERAGED, SCHEME_BUTTERFLY_MODIFIED, SCHEME_LOOP, SCHEME_TET_OCT,
-    SECTION_MODEL_POINTS, SECTION_REST_CAGE, SECTION_VOLUME, SECTION_VOLUME_MODES, Section,
-    VERSION,
+    BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, RIM_FIXED, RIM_SPLINE, SCHEME_BUTTERFLY_MODIFIED,
+    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SECTION_MODEL_POINTS, SECTION_REST_CAGE,
+    SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
@@ -339,7 +338,7 @@ fn check_header(header: &Header, bytes: &[u8]) -> Result<(), BundleError> {
         return Err(BundleError::Checksum { stored, computed });
     }
     let (scheme, boundary) = (header.scheme.get(), header.boundary.get());
-    let is_solid = (SCHEME_TET_OCT..=SCHEME_BOX_SPLINE_AVERAGED).contains(&scheme)
+    let is_solid = (SCHEME_TET_OCT..=SCHEME_MIXED).contains(&scheme)
         && (BOUNDARY_LOOP..=BOUNDARY_FIXED).contains(&boundary);
     let is_surface = (SCHEME_LOOP..=SCHEME_BUTTERFLY_MODIFIED).contains(&scheme)
         && (RIM_SPLINE..=RIM_FIXED).contains(&boundary);

@@ -26,9 +26,8 @@
 //! corners ([`Numbering`]). On a control mesh: old vertices, edge midpoints in the same order
 //! ([`SurfaceEdges`]), then face points by ascending sorted corners ([`FaceOrder`]). So a rest cage
 //! and a posed cage refine to the same order on every machine.
-//! corners ([`Numbering`]). So a rest cage and a posed cage refine to the same order on every
-//! machine. Solids with prisms and hexahedra have middles of quadrilateral faces between the two
-//! and centroids of hexahedra at the end ([`MixedNumbering`]).
+//! Solids with prisms and hexahedra have middles of quadrilateral faces between edge midpoints and
+//! octahedron centroids, and centroids of hexahedra at the end ([`MixedNumbering`]).
 //!
 //! # Triangles on quadrilaterals
 //!
