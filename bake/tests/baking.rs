@@ -28,6 +28,7 @@ fn tetrahedron() -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 1, 2, 3]],
             octahedra: vec![],
+            ..Cells::default()
         },
         ..SolidMesh::default()
     }
@@ -547,6 +548,7 @@ fn unsound_cages_are_refused_in_words() {
         cells: Cells {
             tetrahedra: tetrahedra.to_vec(),
             octahedra: vec![],
+            ..Cells::default()
         },
         ..SolidMesh::default()
     };

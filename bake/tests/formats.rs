@@ -24,10 +24,12 @@ fn two_tetrahedra() -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 1, 2, 3], [0, 2, 1, 4]],
             octahedra: vec![],
+            ..Cells::default()
         },
         labels: Labels {
             tetrahedra: vec![1, 2],
             octahedra: vec![],
+            ..Labels::default()
         },
         ..SolidMesh::default()
     }
@@ -193,10 +195,12 @@ fn mixed() -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[3, 4, 5, 6]],
             octahedra: vec![[5, 0, 1, 3, 2, 4], [0, 1, 2, 3, 4, 5]],
+            ..Cells::default()
         },
         labels: Labels {
             tetrahedra: vec![-4],
             octahedra: vec![7, 0],
+            ..Labels::default()
         },
         channels: vec![Channel {
             name: "temperature".to_owned(),

@@ -30,6 +30,7 @@ fn hexagon() -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 1, 2, 3]],
             octahedra: vec![],
+            ..Cells::default()
         },
         features: Features {
             sheets: (0..6).map(|k| [4, 5 + k, 5 + (k + 1) % 6]).collect(),
@@ -38,6 +39,7 @@ fn hexagon() -> SolidMesh {
         labels: Labels {
             tetrahedra: vec![7],
             octahedra: vec![],
+            ..Labels::default()
         },
         ..SolidMesh::default()
     }
@@ -56,6 +58,7 @@ fn fin() -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 1, 2, 3]],
             octahedra: vec![],
+            ..Cells::default()
         },
         features: Features {
             sheets: vec![[1, 0, 4]],

@@ -48,7 +48,8 @@ fn assert_found(points: &[Point], point: Point, embedding: &Embedding) {
 #[test]
 fn every_vertex_is_found_as_itself() {
     let (level, points) = refined();
-    let locator = Locator::new(&level.cells, level.boundary(), &points);
+    let boundary = level.boundary_faces();
+    let locator = Locator::new(&level.cells, &boundary, &points);
     for (vertex, point) in points.iter().enumerate() {
         let embedding = locator
             .inside(*point)
@@ -69,7 +70,8 @@ fn every_vertex_is_found_as_itself() {
 #[test]
 fn points_between_cells_are_never_lost() {
     let (level, points) = refined();
-    let locator = Locator::new(&level.cells, level.boundary(), &points);
+    let boundary = level.boundary_faces();
+    let locator = Locator::new(&level.cells, &boundary, &points);
     let faces: std::collections::BTreeSet<[u32; 3]> = level
         .cells
         .tetrahedra
@@ -121,7 +123,8 @@ fn points_between_cells_are_never_lost() {
 #[test]
 fn the_lowest_cell_wins() {
     let (level, points) = refined();
-    let locator = Locator::new(&level.cells, level.boundary(), &points);
+    let boundary = level.boundary_faces();
+    let locator = Locator::new(&level.cells, &boundary, &points);
     // Every vertex lies in a tetrahedron (each child of a tetrahedron has four corners of them).
     for (vertex, point) in points.iter().enumerate() {
         let lowest = level

@@ -19,6 +19,7 @@ fn pair(a: [Point; 4], b: [Point; 4]) -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 1, 2, 3], [4, 5, 6, 7]],
             octahedra: vec![],
+            ..Cells::default()
         },
         ..SolidMesh::default()
     }

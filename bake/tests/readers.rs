@@ -30,6 +30,7 @@ fn split_tetrahedron() -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 4, 5, 6], [4, 1, 7, 8], [5, 7, 2, 9], [6, 8, 9, 3]],
             octahedra: vec![[4, 5, 6, 9, 8, 7]],
+            ..Cells::default()
         },
         ..SolidMesh::default()
     }
@@ -51,9 +52,9 @@ fn gmsh_2_and_4_give_the_same_mesh() {
             [0.5, 0.25, 2.0],
             [0.5, 0.5, -2.0],
         ],
-        cells: Cells { tetrahedra: vec![[0, 1, 2, 3], [0, 2, 1, 4]], octahedra: vec![] },
-        features: Features { creases: vec![[0, 1]], corners: vec![3], faces: vec![], sheets: vec![] },
-        labels: Labels { tetrahedra: vec![9, 9], octahedra: vec![] },
+        cells: Cells { tetrahedra: vec![[0, 1, 2, 3], [0, 2, 1, 4]], octahedra: vec![], ..Cells::default() },
+        features: Features { creases: vec![[0, 1]], corners: vec![3], faces: vec![], sheets: vec![], quads: vec![] },
+        labels: Labels { tetrahedra: vec![9, 9], octahedra: vec![], ..Labels::default() },
         channels: vec![],
         notes: vec![
             "left out: 1 line, 1 triangle (in no physical group whose name starts with \"crease\" for curves and surfaces, \"sheet\" for surfaces or \"corner\" for points)".to_owned(),
@@ -444,6 +445,7 @@ fn features_are_read_line_by_line() {
             corners: vec![0, 2],
             faces: vec![[1, 2, 3]],
             sheets: vec![[3, 0, 1]],
+            quads: vec![],
         }
     );
     for (text, message) in [

@@ -18,6 +18,7 @@ fn two_tetrahedra(faces: Vec<[u32; 3]>) -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 1, 2, 3], [0, 2, 1, 4]],
             octahedra: vec![],
+            ..Cells::default()
         },
         features: Features {
             faces,
@@ -26,6 +27,7 @@ fn two_tetrahedra(faces: Vec<[u32; 3]>) -> SolidMesh {
         labels: Labels {
             tetrahedra: vec![1, -2],
             octahedra: vec![],
+            ..Labels::default()
         },
         ..SolidMesh::default()
     }

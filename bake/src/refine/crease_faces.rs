@@ -65,8 +65,8 @@ pub(super) fn require_no_cell_has(mesh: &SolidMesh) -> Result<()> {
         .copied()
         .chain(halves.map(sorted))
         .collect();
-    let mut in_order = sheets.iter();
-    match in_order.find(|face| taken.contains(&sorted(**face))) {
+    let mut in_order = sheets.iter().copied().map(sorted);
+    match in_order.find(|face| taken.contains(face)) {
         Some([a, b, c]) => Err(Error::new(format!(
             "the sheet's triangle of vertices {a}, {b} and {c} (counted from 0) is a face of a cell"
         ))

@@ -10,10 +10,11 @@ use octruss_bake::deform::format_of;
 use octruss_bake::mesh::Point;
 use octruss_bake::picture::{Frame as Tile, Scene, Sheet, contact_sheet, edges_of};
 use octruss_bake::read;
+use octruss_bake::refine::Level;
 use octruss_firmware::frame::FrameReader;
 
 use super::{Machine, Message, Run};
-use crate::reference::{self, Solid, Table, apply_displacement, boundary_triangles};
+use crate::reference::{Table, apply_displacement};
 
 /// Why the demo cannot be judged.
 pub type Failure = Box<dyn std::error::Error>;
@@ -270,7 +271,7 @@ pub fn draw(
         bits.iter().map(point).collect()
     };
     let triangles = read::model(model)?.triangles();
-    let cage_edges = edges_of(&boundary_triangles(&solid(cage)?));
+    let cage_edges = edges_of(&Level::new(&read::solid(cage)?)?.skin());
     let in_order = |rows: &[[i32; 3]]| -> Vec<Point> {
         let mut points = vec![[0.0; 3]; rows.len()];
         for (point, row) in example.model_points.iter().zip(real(rows)) {
@@ -304,17 +305,6 @@ fn chosen(count: usize) -> impl Iterator<Item = usize> {
     (0..tiles).map(move |tile| match tiles {
         0 | 1 => 0,
         _ => tile * (count - 1) / (tiles - 1),
-    })
-}
-
-/// A cage's connectivity as the reference wants it.
-fn solid(cage: &Path) -> Result<Solid, Failure> {
-    let mesh = read::solid(cage)?;
-    Ok(reference::Solid {
-        vertex_count: mesh.points.len(),
-        tetrahedra: mesh.cells.tetrahedra,
-        octahedra: mesh.cells.octahedra,
-        ..Solid::default()
     })
 }
 
