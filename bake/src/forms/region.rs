@@ -9,7 +9,6 @@ use crate::error::{Error, Result};
 use crate::mesh::{Cells, SolidMesh, Vertex};
 use crate::refine::rows::{Row, RowBlend, compose, identity};
 use crate::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
-use octruss::mesh::{OCTAHEDRON_FACES, TETRAHEDRON_FACES};
 use std::collections::HashMap;
 
 /// A region is refined so many times at least...
@@ -103,17 +102,22 @@ fn border(cells: &Cells, own: &[bool]) -> Vec<[Vertex; 3]> {
     order.iter().filter_map(|key| kept[key]).collect()
 }
 
-/// The faces of these cells, counter-clockwise from outside of a positive cell.
-fn faces(cells: &Cells, own: &[bool]) -> impl Iterator<Item = [Vertex; 3]> {
-    let (tetrahedra, octahedra) = own.split_at(cells.tetrahedra.len());
-    let of_tetrahedra = cells.tetrahedra.iter().zip(tetrahedra);
-    let of_tetrahedra = of_tetrahedra.filter(|(_, own)| **own);
-    let of_octahedra = cells.octahedra.iter().zip(octahedra);
-    let of_octahedra = of_octahedra.filter(|(_, own)| **own);
-    of_tetrahedra
-        .flat_map(|(cell, _)| TETRAHEDRON_FACES.map(|face| face.map(|corner| cell[corner])))
-        .chain(
-            of_octahedra
-                .flat_map(|(cell, _)| OCTAHEDRON_FACES.map(|face| face.map(|corner| cell[corner]))),
-        )
+/// The faces of these cells, counter-clockwise from outside of a positive cell. Quadrilaterals are cut
+/// along the diagonal of their least vertex, so that those between two cells go away as triangles do;
+/// what that is off from the bilinear face falls by four a level, as the polyhedron's error does.
+fn faces(cells: &Cells, own: &[bool]) -> Vec<[Vertex; 3]> {
+    let mut faces = Vec::new();
+    for ((shape, corners), _) in cells.iter().zip(own).filter(|(_, own)| **own) {
+        let triangles = shape.triangles().iter();
+        faces.extend(triangles.map(|face| face.map(|place| corners[place])));
+        for face in shape.quads() {
+            let [a, b, c, d] = face.map(|place| corners[place]);
+            if a.min(c) < b.min(d) {
+                faces.extend([[a, b, c], [a, c, d]]);
+            } else {
+                faces.extend([[b, c, d], [b, d, a]]);
+            }
+        }
+    }
+    faces
 }

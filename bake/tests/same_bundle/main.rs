@@ -90,6 +90,7 @@ fn with_octahedron() -> SolidMesh {
         cells: Cells {
             tetrahedra: vec![[0, 4, 5, 6], [4, 1, 7, 8], [5, 7, 2, 9], [6, 8, 9, 3]],
             octahedra: vec![[4, 5, 6, 9, 8, 7]],
+            ..Cells::default()
         },
         features: Features {
             creases: vec![[0, 4], [1, 4]],
@@ -100,6 +101,7 @@ fn with_octahedron() -> SolidMesh {
         labels: Labels {
             tetrahedra: vec![2, 1, 1, 1],
             octahedra: vec![1],
+            ..Labels::default()
         },
         ..SolidMesh::default()
     }
