@@ -135,6 +135,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
     let rest_cage = format.bits_of(&cage.points, "vertex").map_err(of_cage)?;
     let rest_model = format.bits_of(model, "vertex").map_err(of_model)?;
     overlap::require_none(cage).map_err(of_cage)?;
+    require_extent(&rest_cage, format).map_err(of_cage)?;
 
     let refined = refine(cage, options, progress).map_err(of_cage)?;
     let (embeddings, outside) =
@@ -245,6 +246,19 @@ fn require_unit(unit: &str) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// Error if the grid of the coordinates is so coarse that nothing is left of the cage.
+fn require_extent(rest_cage: &[[i32; 3]], format: Format) -> Result<()> {
+    if rest_cage.len() < 2 || rest_cage.windows(2).any(|pair| pair[0] != pair[1]) {
+        return Ok(());
+    }
+    Err(Error::new(format!(
+        "all control points fall on one place: with {} fraction bits coordinates are multiples of {:e}",
+        format.fraction_bits,
+        format.unit()
+    ))
+    .advise("take a smaller unit, so that coordinates are larger numbers, or more --fraction-bits"))
 }
 
 fn choose_format(cage: &SolidMesh, model: &[Point], options: &Options) -> Result<Format> {

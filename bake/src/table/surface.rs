@@ -128,6 +128,7 @@ pub fn bake_surface(
         None => Format::with_headroom(mesh.points.iter().chain(&points)),
     };
     let rest_cage = format.bits_of(&mesh.points, "vertex")?;
+    super::require_extent(&rest_cage, format)?;
     let rest_model = format.bits_of(&points, "refined vertex")?;
     let rows = compose(&embeddings, &matrices, control.vertex_count);
     progress.stage("packing", 1);

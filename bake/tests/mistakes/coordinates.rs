@@ -109,6 +109,21 @@ fn impossible_coordinates() {
             with(TWO_TETRAHEDRA_2, "0.5 0.25 2", "0.5 0.25 1e12"),
             "cage.msh: vertex 3 (counted from 0) has z = 1000000000000, but with 0 fraction bits coordinates lie between -2147483648 and 2147483648\n  help: bake with fewer --fraction-bits, or take a larger unit",
         ),
+        cage(
+            "a cage below the last bit",
+            "cage.msh",
+            [
+                ("20 2 0 0", "20 2e-12 0 0"),
+                ("30 0 2 0", "30 0 2e-12 0"),
+                ("0.5 0.25 2", "5e-13 3e-13 2e-12"),
+                ("0.5 0.5 -2", "5e-13 5e-13 -2e-12"),
+            ]
+            .iter()
+            .fold(TWO_TETRAHEDRA_2.to_owned(), |text, (from, to)| {
+                with(&text, from, to)
+            }),
+            "cage.msh: all control points fall on one place: with 29 fraction bits coordinates are multiples of 1.862645149230957e-9\n  help: take a smaller unit, so that coordinates are larger numbers, or more --fraction-bits",
+        ),
         model(
             "a model beyond 32 bits",
             "skin.obj",

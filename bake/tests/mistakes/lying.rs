@@ -108,6 +108,16 @@ fn lying_files() {
             "cage.vtu, line 20: cell 1 (counted from 0) has offsets beyond the connectivity",
         ),
         cage(
+            "one face of an octahedron again and again",
+            "cage.vtu",
+            with(
+                &String::from_utf8(sound::sample("ascii.vtu")).unwrap(),
+                "0 1 2 3 4 5\n          6 7",
+                "0 0 0 0 0 0\n          0 0",
+            ),
+            "cage.vtu, line 25: cell 4 (counted from 0) has 6 corners and 8 triangles, but not as an octahedron has them: every corner shares triangles with all others but one",
+        ),
+        cage(
             "a length in base64",
             "cage.vtu",
             with(

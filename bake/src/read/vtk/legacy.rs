@@ -6,6 +6,7 @@ use super::numbers::{NumberType, integers, reals, values};
 use crate::error::{Error, Result};
 use crate::mesh::{SolidMesh, Vertex};
 use crate::read::words::{Words, shown};
+use std::collections::HashSet;
 
 /// What has been read so far.
 #[derive(Default)]
@@ -255,15 +256,12 @@ fn polyhedron(entry: &[i64]) -> Result<Cell> {
     let incomplete = || Error::new("has an incomplete list of faces");
     let (number, mut rest) = entry.split_first().ok_or_else(incomplete)?;
     let (mut points, mut faces) = (Vec::new(), Vec::new());
+    let mut known = HashSet::new();
     for _ in 0..*number {
         let (length, others) = rest.split_first().ok_or_else(incomplete)?;
         let length = usize::try_from(*length).map_err(|_| incomplete())?;
         let (face, others) = others.split_at_checked(length).ok_or_else(incomplete)?;
-        for point in face {
-            if !points.contains(point) {
-                points.push(*point);
-            }
-        }
+        points.extend(face.iter().copied().filter(|point| known.insert(*point)));
         faces.push(face.to_vec());
         rest = others;
     }

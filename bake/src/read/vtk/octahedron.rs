@@ -16,7 +16,7 @@ pub fn recognise(corners: &[Vertex], faces: &[Vec<i64>]) -> Result<[Vertex; 6]> 
         .try_into()
         .map_err(|_| not_an_octahedron(corners.len(), faces.len()))?;
     let faces = triangles(&corners, faces)?;
-    let opposite = opposites(&corners, &faces)?;
+    let opposite = opposites(&faces)?;
     let fits = |order: &[usize; 6]| {
         (0..3).all(|place| opposite[order[place]] == order[place + 3])
             && OCTAHEDRON_FACES
@@ -57,14 +57,16 @@ fn not_an_octahedron(corners: usize, faces: usize) -> Error {
 
 /// The faces as places in `corners`, each with its least place first.
 fn triangles(corners: &[Vertex; 6], faces: &[Vec<i64>]) -> Result<Vec<[usize; 3]>> {
-    let wrong = || not_an_octahedron(corners.len(), faces.len());
     if faces.len() != OCTAHEDRON_FACES.len() {
-        return Err(wrong());
+        return Err(not_an_octahedron(corners.len(), faces.len()));
     }
     let mut triangles = Vec::new();
     for face in faces {
         let &[a, b, c] = face.as_slice() else {
-            return Err(wrong());
+            return Err(Error::new(format!(
+                "has a face of {} corners; the faces of an octahedron are triangles",
+                face.len()
+            )));
         };
         let place = |vertex: i64| {
             corners
@@ -93,7 +95,7 @@ fn first_least([a, b, c]: [usize; 3]) -> [usize; 3] {
 }
 
 /// For each corner the one that shares no face with it.
-fn opposites(corners: &[Vertex; 6], faces: &[[usize; 3]]) -> Result<[usize; 6]> {
+fn opposites(faces: &[[usize; 3]]) -> Result<[usize; 6]> {
     let mut opposite = [0; 6];
     for (place, entry) in opposite.iter_mut().enumerate() {
         let touches = |other: usize| {
@@ -104,7 +106,11 @@ fn opposites(corners: &[Vertex; 6], faces: &[[usize; 3]]) -> Result<[usize; 6]> 
         let mut apart = (0..6).filter(|other| *other != place && !touches(*other));
         match (apart.next(), apart.next()) {
             (Some(other), None) => *entry = other,
-            _ => return Err(not_an_octahedron(corners.len(), faces.len())),
+            _ => {
+                return Err(Error::new(
+                    "has 6 corners and 8 triangles, but not as an octahedron has them: every corner shares triangles with all others but one",
+                ));
+            }
         }
     }
     Ok(opposite)

@@ -73,14 +73,16 @@ impl Polyhedra {
                 cell_ends,
             } => {
                 let own = range(cell_ends, cell).and_then(|range| faces.get(range))?;
-                own.iter()
-                    .map(|face| {
-                        let face = usize::try_from(*face).ok()?;
-                        range(face_ends, face)
-                            .and_then(|range| vertices.get(range))
-                            .map(<[i64]>::to_vec)
-                    })
-                    .collect()
+                let mut cell_faces = Vec::new();
+                // A file that names one long face again and again must not fill the memory.
+                let mut room = vertices.len();
+                for face in own {
+                    let face = usize::try_from(*face).ok()?;
+                    let corners = range(face_ends, face).and_then(|range| vertices.get(range))?;
+                    room = room.checked_sub(corners.len())?;
+                    cell_faces.push(corners.to_vec());
+                }
+                Some(cell_faces)
             }
         }
     }
