@@ -50,6 +50,7 @@
 //! | [`SECTION_LIMIT`] | level, coordinates saturated so far, x y z of each limit position of that level |
 //! | [`SECTION_TRIANGLE`] | generation, corners, neighbours, x y z of the corners and of their limits |
 //! | [`SECTION_VOLUME`] | see [`volume`]; numbers of 64 bits have their low word first |
+//! | [`SECTION_NORMALS`] | how many are zero, x y z of the normal of each row |
 
 pub mod apply;
 pub mod box_spline;
@@ -59,6 +60,7 @@ pub mod solid;
 mod space;
 pub mod sqrt3;
 pub mod surface;
+pub mod update;
 pub mod volume;
 
 pub use results::{Results, Sink, Status};
@@ -104,6 +106,9 @@ pub const VOLUME: u32 = 9;
 /// Kind of a case: evaluate a volume's polynomial in modes.
 pub const VOLUME_MODES: u32 = 10;
 
+/// Kind of a case: apply a table again where control points moved, with factored tables and normals too.
+pub const UPDATE: u32 = 20;
+
 /// Tag of the section that ends a case.
 pub const SECTION_END: u32 = 0;
 /// Tag of a section about the cells of a level.
@@ -124,6 +129,8 @@ pub const SECTION_LIMIT: u32 = 7;
 pub const SECTION_TRIANGLE: u32 = 8;
 /// Tag of a section with volumes and gradients.
 pub const SECTION_VOLUME: u32 = 9;
+/// Tag of a section with normals.
+pub const SECTION_NORMALS: u32 = 20;
 
 /// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
 ///
@@ -141,6 +148,7 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         SQRT3_STEPS => sqrt3::run_steps(words, results),
         VOLUME => volume::run(words, memory.space(), results),
         VOLUME_MODES => volume::run_modes(words, memory.space(), results),
+        UPDATE => update::run(words, memory.space(), results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));

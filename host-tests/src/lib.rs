@@ -9,6 +9,7 @@
 //! - [`local`] and [`spectrum`] make subdivision matrices of neighbourhoods and analyse them.
 //! - [`performance`] measures the apply beside what one would write instead.
 //! - [`random_bundle`] packs random tables in every format.
+//! - [`random_update`] does so for tables that are updated in part, factored tables and normals.
 //! - [`random_mesh`] and [`random_table`] draw the random cases, from a seed alone.
 //! - [`random_data`] draws solids of several materials: labels, crease surfaces, scalar channels.
 //! - [`equality`] runs core against the reference, [`compare`] says what differs, [`distance`]
@@ -43,6 +44,7 @@ pub mod random_mesh;
 pub mod random_mixed;
 pub mod random_surface;
 pub mod random_table;
+pub mod random_update;
 pub mod random_volume;
 pub mod rational;
 pub mod reference;

@@ -5,6 +5,7 @@
 
 use octruss::bundle::{BOUNDARY_LOOP, Header, SCHEME_TET_OCT};
 use octruss_bake::pack::sections::{Source, Stage};
+use octruss_bake::pack::writer::Section;
 use octruss_bake::pack::{Layout, writer};
 
 use crate::random_table::{ApplyCase, RowSum};
@@ -43,7 +44,16 @@ impl BundleCase {
     /// If the baker cannot pack it, which is a fault.
     #[must_use]
     pub fn new(seed: u64, rows: usize, points: u16, layout: Layout) -> Self {
-        let mut case = ApplyCase::<3>::new(seed, rows, points, RowSum::One);
+        Self::of(ApplyCase::<3>::new(seed, rows, points, RowSum::One), layout)
+    }
+
+    /// A case in a format: weights and rest results become what the format holds.
+    ///
+    /// # Panics
+    /// If the baker cannot pack it, which is a fault.
+    #[must_use]
+    pub fn of(mut case: ApplyCase<3>, layout: Layout) -> Self {
+        let seed = case.seed;
         if layout.weight_bits() == 14 {
             coarsen(&mut case.table);
         }
@@ -140,7 +150,8 @@ fn share(table: &mut Table, seed: u64) {
     }
 }
 
-fn pack(case: &ApplyCase<3>, layout: Layout) -> (Vec<u8>, Vec<usize>) {
+/// The rows as the baker packs them.
+pub(crate) fn stage_of(case: &ApplyCase<3>, layout: Layout) -> Stage {
     let shift = 30 - layout.weight_bits();
     let taps = |row: usize| {
         let taps = case
@@ -156,10 +167,20 @@ fn pack(case: &ApplyCase<3>, layout: Layout) -> (Vec<u8>, Vec<usize>) {
         rest: Some(&case.rest),
         keep_order: case.seed.is_multiple_of(5),
     };
-    let stage = Stage::new(&source, layout).expect("a table that fits its format");
+    Stage::new(&source, layout).expect("a table that fits its format")
+}
+
+fn pack(case: &ApplyCase<3>, layout: Layout) -> (Vec<u8>, Vec<usize>) {
+    let stage = stage_of(case, layout);
     let mut sections = vec![writer::rest_cage(&case.rest_pose)];
     sections.extend(stage.sections(0));
     sections.extend(writer::model_points(&stage.order));
+    let bytes = bundle_of(&sections, case.pose.len(), case.table.row_count());
+    (bytes, stage.order)
+}
+
+/// The bundle of some sections.
+pub(crate) fn bundle_of(sections: &[Section], control_points: usize, rows: usize) -> Vec<u8> {
     let header = Header {
         magic: [0; 8],
         version: 0.into(),
@@ -170,13 +191,12 @@ fn pack(case: &ApplyCase<3>, layout: Layout) -> (Vec<u8>, Vec<usize>) {
         scheme: SCHEME_TET_OCT.into(),
         boundary: BOUNDARY_LOOP.into(),
         levels: 1.into(),
-        control_points: (case.pose.len() as u32).into(),
-        rows: (rows.len() as u32).into(),
+        control_points: (control_points as u32).into(),
+        rows: (rows as u32).into(),
         sections: 0.into(),
         cage_checksum: 0.into(),
         model_checksum: 0.into(),
         reserved: [0; 56],
     };
-    let bytes = writer::bundle(header, &sections).expect("a small bundle");
-    (bytes, stage.order)
+    writer::bundle(header, sections).expect("a small bundle")
 }

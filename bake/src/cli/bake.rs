@@ -93,6 +93,9 @@ pub struct Arguments {
     /// that of a motion, in which every frame is the pose of one mode at amplitude one
     #[arg(long, value_name = "MODES", requires = "volume")]
     modes: Option<PathBuf>,
+    /// Also bake the model's faces, from which a device forms the normals of the deformed points
+    #[arg(long)]
+    pub normals: bool,
     /// Where the random poses start from on which the error is measured
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
     pub seed: u64,
@@ -148,6 +151,7 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         modes: modes(arguments, cage.points.len(), &|mesh| {
             require_same_cells(&cage, mesh)
         })?,
+        faces: arguments.normals.then(|| model.faces.clone()),
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

@@ -33,6 +33,7 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
         modes: modes(arguments, mesh.points.len(), &|_| {
             Err(Error::new("the modes of a surface are read from a .csv"))
         })?,
+        normals: arguments.normals,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

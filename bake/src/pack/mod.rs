@@ -6,6 +6,7 @@
 
 pub mod cost;
 pub mod group;
+pub mod normals;
 pub mod sections;
 pub mod writer;
 

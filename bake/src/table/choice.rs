@@ -136,6 +136,8 @@ pub(super) struct Material<'a> {
 
 /// A packed table.
 pub(super) struct Packed {
+    /// The model's point that each row is.
+    pub order: Vec<usize>,
     pub sections: Vec<Section>,
     pub report: FormatReport,
 }
@@ -240,7 +242,7 @@ impl Material<'_> {
         let tap_bytes = stage.tap_bytes();
         let mut sections = stage.sections(0);
         sections.extend(writer::model_points(&stage.order));
-        let packed = self.completed(sections, tap_bytes, report);
+        let packed = self.completed(sections, stage.order, tap_bytes, report);
         Some(self.measured(packed, displacement))
     }
 
@@ -308,7 +310,7 @@ impl Material<'_> {
         let mut sections = first.sections(0);
         sections.extend(last.sections(1));
         sections.extend(writer::model_points(&last.order));
-        Some(self.completed(sections, tap_bytes, report))
+        Some(self.completed(sections, last.order, tap_bytes, report))
     }
 
     /// The bits of the points that rows give at rest; `None` if one does not fit.
@@ -325,7 +327,13 @@ impl Material<'_> {
         bits.collect()
     }
 
-    fn completed(&self, table: Vec<Section>, tap_bytes: usize, report: FormatReport) -> Packed {
+    fn completed(
+        &self,
+        table: Vec<Section>,
+        order: Vec<usize>,
+        tap_bytes: usize,
+        report: FormatReport,
+    ) -> Packed {
         let taps: usize = self.rows.iter().map(Vec::len).sum();
         let report = FormatReport {
             bytes: table.iter().map(|section| section.bytes.len()).sum(),
@@ -334,7 +342,11 @@ impl Material<'_> {
         };
         let mut sections = vec![writer::rest_cage(self.rest_cage)];
         sections.extend(table);
-        Packed { sections, report }
+        Packed {
+            order,
+            sections,
+            report,
+        }
     }
 
     fn measured(&self, mut packed: Packed, displacement: f64) -> Packed {

@@ -15,6 +15,7 @@ mod report;
 pub mod surface;
 mod volume;
 
+pub use crate::pack::normals::NormalsReport;
 pub use choice::{FormatReport, Request, TableFormat};
 pub use report::{LargestRow, OutsideReport, Report, TapsReport, WeightsReport};
 pub use volume::{ModesReport, Region, VolumeReport};
@@ -25,6 +26,7 @@ use crate::error::{Error, Result, count};
 use crate::locate::{Embedding, Locator, Nearest};
 use crate::mesh::{Point, SolidMesh};
 use crate::overlap;
+use crate::pack::normals;
 use crate::progress::Progress;
 use crate::refine::rows::{Row, RowBlend, compose, composition_error, identity};
 use crate::refine::{BoundaryRule, DiagonalLists, Level, Refinement, Scheme};
@@ -69,6 +71,9 @@ pub struct Options {
     pub volumes: Vec<Region>,
     /// Modes that those volumes are also baked for, as polynomials: each the pose at amplitude one.
     pub modes: Vec<Vec<Point>>,
+    /// Also bake the faces of the model, for the normals of its points: each the points round a face, counter-
+    /// clockwise from outside. None by default.
+    pub faces: Option<Vec<Vec<u32>>>,
     /// How the format of the table is chosen.
     pub request: Request,
     /// Random poses on which the table's error is measured.
@@ -89,6 +94,7 @@ impl Default for Options {
             outside: Outside::Error,
             volumes: Vec::new(),
             modes: Vec::new(),
+            faces: None,
             request: Request::default(),
             random_poses: 4,
             seed: 0,
@@ -172,6 +178,15 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         .sections(|region| volume::of_cage(cage, options, region))
         .map_err(of_cage)?;
     sections.extend(of_volumes);
+    let normals = match &options.faces {
+        None => None,
+        Some(faces) => {
+            let (section, report) =
+                normals::section(faces, &packed.order, &rest_model).map_err(of_model)?;
+            sections.push(section);
+            Some(report)
+        }
+    };
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,
@@ -212,6 +227,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         formats,
         precision,
         volumes,
+        normals,
     };
     Ok(Baked {
         bundle: bytes,

@@ -3,7 +3,7 @@
 use super::precision::{FormPrecision, Precision};
 use super::quantise::{ONE, QuantisedRow};
 use super::volume::VolumeReport;
-use super::{BoundaryRule, FormatReport, Outside, Scheme};
+use super::{BoundaryRule, FormatReport, NormalsReport, Outside, Scheme};
 use crate::error::count;
 use serde::Serialize;
 use std::fmt;
@@ -46,6 +46,9 @@ pub struct Report {
     /// The forms of enclosed volumes that were baked.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub volumes: Vec<VolumeReport>,
+    /// The faces for normals, if they were baked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normals: Option<NormalsReport>,
 }
 
 /// Numbers of taps.
@@ -194,6 +197,14 @@ impl fmt::Display for Report {
         }
         for volume in &self.volumes {
             volume.write(f, unit)?;
+        }
+        if let Some(normals) = &self.normals {
+            writeln!(
+                f,
+                "normals     {} of faces, {} bytes",
+                count(normals.corners, "corner", "corners"),
+                normals.bytes
+            )?;
         }
         self.write_outside(f, unit)?;
         self.write_formats(f, unit, step)?;

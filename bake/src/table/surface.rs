@@ -10,6 +10,7 @@ use super::{TapsReport, require_unit};
 use crate::bundle::{self, Contents};
 use crate::error::{Error, Result, count};
 use crate::mesh::Point;
+use crate::pack::normals::{self, NormalsReport};
 use crate::progress::Progress;
 use crate::refine::RealBlend;
 use crate::refine::rows::{RowBlend, compose, composition_error, identity};
@@ -36,6 +37,8 @@ pub struct SurfaceOptions {
     pub volumes: Vec<Region>,
     /// Modes that they are also baked for: each the pose at amplitude one.
     pub modes: Vec<Vec<Point>>,
+    /// Also bake the faces of the refined surface, for the normals of its points.
+    pub normals: bool,
     /// Which format is taken.
     pub request: Request,
     /// Random poses on which the table's error is measured.
@@ -87,6 +90,9 @@ pub struct SurfaceReport {
     /// The forms of enclosed volumes that were baked.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub volumes: Vec<VolumeReport>,
+    /// The faces for normals, if they were baked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normals: Option<NormalsReport>,
 }
 
 /// Bakes the table of all vertices of a refined surface.
@@ -154,7 +160,14 @@ pub fn bake_surface(
     };
     let (of_volumes, volumes) =
         wanted.sections(|region| volume::of_surface(mesh, options.scheme, region))?;
-    let sections = [packed.sections.clone(), of_volumes].concat();
+    let mut sections = [packed.sections.clone(), of_volumes].concat();
+    let mut report_of_normals = None;
+    if options.normals {
+        let faces: Vec<Vec<u32>> = level.faces().map(<[u32]>::to_vec).collect();
+        let (section, report) = normals::section(&faces, &packed.order, &rest_model)?;
+        sections.push(section);
+        report_of_normals = Some(report);
+    }
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,
@@ -183,6 +196,7 @@ pub fn bake_surface(
         bytes: bytes.len(),
         formats,
         volumes,
+        normals: report_of_normals,
     };
     Ok(BakedSurface {
         bundle: bytes,

@@ -70,6 +70,12 @@ pub enum BundleError {
     },
     /// A volume form is not sound.
     Volume(EnclosedError),
+    /// The faces round the point of a row are not sound: a neighbour that does not exist, too many corners,
+    /// or lengths that do not fit. The number of rows if it is not the fault of a row.
+    Normals {
+        /// The row.
+        row: u32,
+    },
     /// A row names a point that the model does not have.
     ModelPoints,
     /// The bundle holds another kind of table than was asked for: for 32-bit coordinates or 16-bit
@@ -122,6 +128,9 @@ impl fmt::Display for BundleError {
             ),
             Self::Start { row } => write!(f, "the start value of row {row} is too large"),
             Self::Volume(error) => write!(f, "the bundle's volume form is not sound: {error}"),
+            Self::Normals { row } => {
+                write!(f, "the faces round the point of row {row} are not sound")
+            }
             Self::ModelPoints => f.write_str("a row names a point that the model does not have"),
             Self::OtherTable => f.write_str(
                 "the bundle holds another kind of table: bake it again with the --format that the program uses",

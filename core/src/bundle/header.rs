@@ -108,6 +108,23 @@ pub const SECTION_VOLUME: u32 = 8;
 /// [`SECTION_VOLUME`].
 pub const SECTION_VOLUME_MODES: u32 = 9;
 
+/// [`Section::kind`]: the faces round every row's point, for normals.
+pub const SECTION_NORMALS: u32 = 10;
+
+/// What the section of normals starts with: 16 bytes. The fans follow, `u16` each.
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct NormalsRecord {
+    /// Rows of the table.
+    pub rows: U32,
+    /// Edges are in units of `2^shift` units in the last place of a coordinate; 0 to 5.
+    pub shift: U32,
+    /// How many `u16` follow.
+    pub words: U32,
+    /// Zero.
+    pub reserved: [u8; 4],
+}
+
 /// An entry of the section table, which follows the header: 16 bytes.
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]

@@ -6,14 +6,14 @@ use zerocopy::FromBytes;
 
 use super::error::BundleError;
 use super::header::{
-    BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, RIM_FIXED, RIM_SPLINE, SCHEME_BUTTERFLY_MODIFIED,
-    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SECTION_MODEL_POINTS, SECTION_REST_CAGE,
-    SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
+    BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
+    SCHEME_BUTTERFLY_MODIFIED, SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SECTION_MODEL_POINTS,
+    SECTION_NORMALS, SECTION_REST_CAGE, SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
 use crate::coord::Coordinate;
-use crate::deform::{CompactTable, Table};
+use crate::deform::{CompactTable, Normals, Table};
 use crate::enclosed::{VolumeForm, VolumeModes};
 
 /// A bundle that has been proved sound, still where it lay.
@@ -211,6 +211,31 @@ impl<'a> Bundle<'a> {
         VolumeModes::from_section(bytes)
             .map(Some)
             .map_err(BundleError::Volume)
+    }
+
+    /// The faces round the model's points, for their normals; `None` if they were not baked. They are proved
+    /// sound here, not when the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::Normals`] if they are not sound.
+    pub fn normals(&self) -> Result<Option<Normals<'a>>, BundleError> {
+        let Some(bytes) = self.sections.find(SECTION_NORMALS, 0)? else {
+            return Ok(None);
+        };
+        let rows = self.header.rows.get();
+        let error = BundleError::Normals { row: rows };
+        let (record, fans) = NormalsRecord::ref_from_prefix(bytes).map_err(|_| error)?;
+        let fans: &[u16] = cast(fans, error)?;
+        let fits = record.rows.get() == rows
+            && size(record.words.get()) == Some(fans.len())
+            && record.reserved == [0; 4];
+        let rows = size(rows).filter(|_| fits).ok_or(error)?;
+        Normals::new(rows, record.shift.get(), fans)
+            .map(Some)
+            .map_err(|row| BundleError::Normals {
+                row: u32::try_from(row).unwrap_or(u32::MAX),
+            })
     }
 
     fn check_format<C: Coordinate>(&self) -> Result<(), BundleError> {

@@ -266,6 +266,17 @@ impl<'a, C: Coordinate> CompactTable<'a, C> {
         scalars::apply(self.groups, shape, weights, rows, values, out)
     }
 
+    /// Marks the rows that [`CompactTable::apply_moved`] computes for these moved control points: see
+    /// [`Table::mark_moved`](super::Table::mark_moved).
+    ///
+    /// # Errors
+    ///
+    /// [`ApplyError::MarksLength`] or [`ApplyError::OutputLength`]; nothing is then written.
+    pub fn mark_moved(&self, moved: &[bool], rows: &mut [bool]) -> Result<(), ApplyError> {
+        let sizes = (self.rest_cage.len(), self.rest.len());
+        self.groups.mark_moved(moved, sizes, rows)
+    }
+
     fn run(
         &self,
         rows: Range<usize>,

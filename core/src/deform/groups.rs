@@ -1,5 +1,7 @@
 //! Groups: rows that share their control points.
 
+use super::moved::Moved;
+use super::table::ApplyError;
 use core::ops::Range;
 
 /// The groups of a table and the control points that each of them names.
@@ -38,6 +40,36 @@ pub(super) struct Position<'a> {
 }
 
 impl<'a> Groups<'a> {
+    /// Marks the rows of groups with a moved control point and clears the marks of the others. `inputs` and
+    /// `rows` are the numbers of control points and rows.
+    pub(super) fn mark_moved(
+        &self,
+        moved: &[bool],
+        (inputs, rows): (usize, usize),
+        marks: &mut [bool],
+    ) -> Result<(), ApplyError> {
+        if moved.len() != inputs {
+            let (needed, given) = (inputs, moved.len());
+            return Err(ApplyError::MarksLength { needed, given });
+        }
+        if marks.len() != rows {
+            let (needed, given) = (rows, marks.len());
+            return Err(ApplyError::OutputLength { needed, given });
+        }
+        let (mut indices, mut marks) = (self.indices, marks);
+        for &[group_rows, taps] in self.groups {
+            let (Some((own, more)), Some((group_marks, more_marks))) = (
+                indices.split_at_checked(taps.into()),
+                core::mem::take(&mut marks).split_at_mut_checked(group_rows.into()),
+            ) else {
+                break;
+            };
+            group_marks.fill(Moved::Marked(moved).any_of(own));
+            (indices, marks) = (more, more_marks);
+        }
+        Ok(())
+    }
+
     /// Finds the group of a row; `None` if there is no such row.
     ///
     /// Takes a few instructions for each group before it.

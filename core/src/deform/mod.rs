@@ -29,6 +29,7 @@ mod compact;
 mod groups;
 mod kernel;
 mod moved;
+mod normals;
 mod scalars;
 mod table;
 mod wide;
@@ -38,5 +39,6 @@ pub use compact::{CompactTable, Displacement, Displacements, displacement_shift}
 pub(crate) use groups::Groups;
 pub(crate) use kernel::{EXCLUDED_DISPLACEMENT_SHIFT, MOST_DISPLACEMENT_SHIFT};
 pub use moved::Updated;
+pub use normals::{MOST_CORNERS, MOST_EDGE_SHIFT, NORMAL_BITS, Normals};
 pub use table::{ApplyError, Table};
 pub(crate) use table::{Starts, Weights};

@@ -129,6 +129,13 @@ pub enum ApplyError {
         /// Control points that values were given for.
         given: usize,
     },
+    /// The points are not as many as the model has.
+    PointsLength {
+        /// Points of the model: rows of the table.
+        needed: usize,
+        /// Points given.
+        given: usize,
+    },
     /// The table has the absolute form only: it was baked without rest positions.
     NoRestPositions,
     /// The output's length is not the number of rows asked for.
@@ -305,6 +312,20 @@ impl<'a, C: Coordinate> Table<'a, C> {
         }
     }
 
+    /// Marks the rows that [`Table::apply_moved`] computes for these moved control points, one mark for each
+    /// row, and clears the other marks.
+    ///
+    /// The rows of the first table of a factored one are the pose of the second: their marks are what
+    /// moved there.
+    ///
+    /// # Errors
+    ///
+    /// [`ApplyError::MarksLength`] or [`ApplyError::OutputLength`]; nothing is then written.
+    pub fn mark_moved(&self, moved: &[bool], rows: &mut [bool]) -> Result<(), ApplyError> {
+        self.groups
+            .mark_moved(moved, (self.inputs, self.rows), rows)
+    }
+
     /// Computes the points of a range of rows in the absolute form, and returns how many
     /// coordinates were out of range and saturated.
     ///
@@ -472,6 +493,9 @@ impl fmt::Display for ApplyError {
                     f,
                     "{given} control points have values, the table's cage has {needed}"
                 )
+            }
+            Self::PointsLength { needed, given } => {
+                write!(f, "{given} points were given, the model has {needed}")
             }
             Self::NoRestPositions => f.write_str(
                 "the table has no rest positions: apply its absolute form, or bake it with them",

@@ -34,6 +34,7 @@ fn main() -> ! {
         if let Ok(bundle) = Bundle::new_checked(flash) {
             black_box(apply(&bundle, black_box(POSE), black_box(OUT)));
             black_box(apply_compact(&bundle, black_box(POSE), black_box(OUT)));
+            black_box(normals(&bundle, black_box(OUT)));
         }
     }
 }
@@ -55,6 +56,11 @@ fn apply(bundle: &Bundle<'_>, pose: &Points, out: &mut Points) -> Option<u32> {
     let updated = table
         .apply_moved(&black_box([true; POINTS]), pose, out)
         .ok()?;
+    let mut marks = [false; POINTS];
+    table
+        .mark_moved(&black_box([true; POINTS]), &mut marks)
+        .ok()?;
+    black_box(&marks);
     Some(
         displaced
             .wrapping_add(absolute)
@@ -82,6 +88,16 @@ fn apply_compact(bundle: &Bundle<'_>, pose: &Points, out: &mut Points) -> Option
             .wrapping_add(scalars)
             .wrapping_add(updated.saturated),
     )
+}
+
+/// The normals of the points.
+#[inline(never)]
+fn normals(bundle: &Bundle<'_>, points: &Points) -> Option<u32> {
+    let normals = bundle.normals().ok()??;
+    let mut out = [[0; 3]; POINTS];
+    let zeros = normals.apply(black_box(0..POINTS), points, &mut out).ok()?;
+    black_box(&out);
+    Some(zeros)
 }
 
 /// Never linked, as nothing panics; the language wants it to be there.

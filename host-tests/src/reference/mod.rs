@@ -45,6 +45,7 @@ pub mod exact;
 mod labels;
 mod loop_weight;
 mod masks;
+pub mod normals;
 mod refine;
 mod smooth;
 mod solid;

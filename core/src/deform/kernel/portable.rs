@@ -37,6 +37,8 @@ pub(in super::super) fn wide_q30<S: Start>(
     wide::<i32, S, 30>(points, weights, starts, out);
 }
 
+/// A function of its own: inlined, its loop would share registers with what stands around it.
+#[inline(never)]
 fn wide<W: Copy + Into<i64>, S: Start, const BITS: u32>(
     points: &[[i32; 3]],
     weights: &[W],
@@ -54,9 +56,18 @@ fn wide<W: Copy + Into<i64>, S: Start, const BITS: u32>(
             x = x.wrapping_add(weight.wrapping_mul(i64::from(px)));
             y = y.wrapping_add(weight.wrapping_mul(i64::from(py)));
             z = z.wrapping_add(weight.wrapping_mul(i64::from(pz)));
+            keep_rolled();
         }
         *slot = [x, y, z].map(|sum| low_bits(floor_shift(sum, BITS)));
     }
+}
+
+/// Keeps a loop from being unrolled on Arm's small processors, where four steps at a time need more registers
+/// than there are.
+#[inline(always)]
+fn keep_rolled() {
+    #[cfg(target_arch = "arm")]
+    core::hint::black_box(());
 }
 
 /// The lower 32 bits of a number that fits them.
@@ -91,14 +102,23 @@ pub(in super::super) fn narrow_pairs(
     }
     let pairs = steps.chunks_exact(points.len()).zip(rest);
     for ([slot_a, slot_b], (steps, &[rest_a, rest_b])) in out.iter_mut().zip(pairs) {
-        let (mut a, mut b) = ([0_i32; 3], [0_i32; 3]);
-        for (&[a0, a1, b0, b1], point) in steps.iter().zip(points) {
-            a = multiply_add(a, [a0, a1], point);
-            b = multiply_add(b, [b0, b1], point);
-        }
-        *slot_a = narrow_point(rest_a, a, displacement_shift);
-        *slot_b = narrow_point(rest_b, b, displacement_shift);
+        // One row behind the other: the sums of both at once need more registers than there are.
+        let first = sums(steps.iter().map(|&[a0, a1, _, _]| [a0, a1]), points);
+        *slot_a = narrow_point(rest_a, first, displacement_shift);
+        let second = sums(steps.iter().map(|&[_, _, b0, b1]| [b0, b1]), points);
+        *slot_b = narrow_point(rest_b, second, displacement_shift);
     }
+}
+
+/// The sums of one row: two weights for each two displacements.
+#[inline(never)]
+fn sums(weights: impl Iterator<Item = [i16; TAPS_A_STEP]>, points: &[[Pair; 3]]) -> [i32; 3] {
+    let mut sums = [0; 3];
+    for (weights, point) in weights.zip(points) {
+        sums = multiply_add(sums, weights, point);
+        keep_rolled();
+    }
+    sums
 }
 
 #[inline(always)]
@@ -122,10 +142,7 @@ pub(in super::super) fn narrow_single(
     displacement_shift: u32,
 ) -> [i32; 3] {
     let (steps, _) = weights.as_chunks::<TAPS_A_STEP>();
-    let sums = steps.iter().zip(points);
-    let sums = sums.fold([0; 3], |sums, (&weights, point)| {
-        multiply_add(sums, weights, point)
-    });
+    let sums = sums(steps.iter().copied(), points);
     narrow_point(rest, sums, displacement_shift)
 }
 

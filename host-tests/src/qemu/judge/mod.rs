@@ -9,6 +9,7 @@ mod box_spline;
 mod sqrt3;
 mod surface;
 mod tet_oct;
+mod update;
 mod volume;
 
 use std::fmt;
@@ -58,6 +59,8 @@ pub enum Subject {
     Volume,
     /// Volumes as polynomials in modes, and their derivatives
     VolumeModes,
+    /// Tables updated in part, factored tables, normals of their points
+    Update,
 }
 
 impl Subject {
@@ -80,6 +83,7 @@ impl Subject {
             Subject::Sqrt3Steps => sqrt3::steps(seed),
             Subject::Volume => volume::form(seed),
             Subject::VolumeModes => volume::polynomial(seed),
+            Subject::Update => update::case(seed),
         }
     }
 }
@@ -285,8 +289,8 @@ impl Found {
 /// Cases that are made, run and compared at a time: a bound of the memory that this takes.
 const BATCH: u32 = 1_000;
 
-/// Runs the cases of `count` seeds from `first` on the host and on the machines. `directory` is
-/// for the files.
+/// Runs the cases of `count` seeds from `first` on the host and on the machines, each with its image
+/// `conformance`. `directory` is for the files.
 ///
 /// # Errors
 ///
@@ -294,7 +298,6 @@ const BATCH: u32 = 1_000;
 pub fn judge(
     subject: Subject,
     machines: &[Machine],
-    image: &Path,
     directory: &Path,
     first: u32,
     count: u32,
@@ -305,7 +308,7 @@ pub fn judge(
         let cases: Vec<Judged> = seeds
             .map(|place| subject.case(first.wrapping_add(place)))
             .collect();
-        let batch = judge_batch(&cases, machines, image, directory)?;
+        let batch = judge_batch(&cases, machines, directory)?;
         found.host.add(batch.host);
         if found.machines.is_empty() {
             found.machines = batch.machines;
@@ -318,12 +321,7 @@ pub fn judge(
 }
 
 /// Runs cases on the host and, at the same time on each, on the machines.
-fn judge_batch(
-    cases: &[Judged],
-    machines: &[Machine],
-    image: &Path,
-    directory: &Path,
-) -> Result<Found, Error> {
+fn judge_batch(cases: &[Judged], machines: &[Machine], directory: &Path) -> Result<Found, Error> {
     let sent: Vec<Case> = cases.iter().map(|judged| judged.case.clone()).collect();
     // Some thousand cases a second; a machine that is busy with other things gets its time.
     let limit = Duration::from_secs(60) + Duration::from_millis(50) * word(sent.len());
@@ -333,7 +331,8 @@ fn judge_batch(
             .iter()
             .map(|&machine| {
                 let directory = directory.join(machine.name());
-                scope.spawn(move || on_device(machine, image, &directory, sent, limit))
+                let image = machine.image("conformance");
+                scope.spawn(move || on_device(machine, &image, &directory, sent, limit))
             })
             .collect();
         let host = on_host(sent);
