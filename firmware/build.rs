@@ -1,6 +1,6 @@
-//! Hands the linker its scripts (`memory.x` of the workspace root, `link.x` of `cortex-m-rt` and,
-//! for the images that log, `defmt.x` of `defmt`), and tells the images that hold the example
-//! where it was baked to.
+//! Hands the linker its scripts (`memory.x` of the workspace root with the board's memory from
+//! `memory/`, `link.x` of `cortex-m-rt` and, for the images that log, `defmt.x` of `defmt`), and tells
+//! the images that hold the example where it was baked to.
 //!
 //! The flags belong to this package's Cortex-M images alone, so nothing that is built for the
 //! host, and no other package, sees them.
@@ -37,15 +37,16 @@ fn main() {
 
 fn link(workspace: &Path) {
     let out = PathBuf::from(variable("OUT_DIR"));
-    let (from, to) = (workspace.join("memory.x"), out.join("memory.x"));
-    println!("cargo::rerun-if-changed={}", from.display());
-    if let Err(error) = fs::copy(&from, &to) {
-        panic!(
-            "cannot copy {} to {}: {error}",
-            from.display(),
-            to.display()
-        );
-    }
+    let board = match env::var_os("CARGO_FEATURE_BOARD_NETDUINOPLUS2") {
+        Some(_) => "netduinoplus2",
+        None => "mps2",
+    };
+    let boards = Path::new(&variable("CARGO_MANIFEST_DIR")).join("memory");
+    copy(&workspace.join("memory.x"), &out.join("memory.x"));
+    copy(
+        &boards.join(format!("{board}.x")),
+        &out.join("board-memory.x"),
+    );
     println!("cargo::rustc-link-search={}", out.display());
 
     // The start of flash must not share a page with the file's headers.
@@ -53,6 +54,18 @@ fn link(workspace: &Path) {
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
     for image in LOGGING_IMAGES {
         println!("cargo::rustc-link-arg-bin={image}=-Tdefmt.x");
+    }
+}
+
+/// Copies a linker script to where the linker looks.
+fn copy(from: &Path, to: &Path) {
+    println!("cargo::rerun-if-changed={}", from.display());
+    if let Err(error) = fs::copy(from, to) {
+        panic!(
+            "cannot copy {} to {}: {error}",
+            from.display(),
+            to.display()
+        );
     }
 }
 

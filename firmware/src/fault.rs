@@ -1,5 +1,6 @@
 //! What happens when an image goes wrong: say where, then exit with failure.
 
+use core::arch::naked_asm;
 use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -30,10 +31,44 @@ fn panic(info: &PanicInfo) -> ! {
     exit::stop(Ending::Panicked)
 }
 
-// SAFETY: the handler reads the stacked registers and never returns, so it cannot break what it
-// interrupted.
-#[exception]
-unsafe fn HardFault(frame: &ExceptionFrame) -> ! {
+/// Where every hard fault arrives.
+///
+/// A stack that has left its space would fault again with the first thing that is put on it, and the
+/// processor would lock up: it gets a new stack before anything is said.
+///
+/// # Safety
+///
+/// Only the processor calls it.
+#[unsafe(naked)]
+#[unsafe(no_mangle)]
+unsafe extern "C" fn HardFault() -> ! {
+    naked_asm!(
+        "movw r0, #:lower16:_stack_end",
+        "movt r0, #:upper16:_stack_end",
+        "mrs r1, msp",
+        "cmp r1, r0",
+        "blo 2f",
+        "mov r0, r1",
+        "b {say_where}",
+        "2:",
+        "movw r0, #:lower16:_stack_start",
+        "movt r0, #:upper16:_stack_start",
+        "mov sp, r0",
+        "b {say_overflow}",
+        say_where = sym report_fault,
+        say_overflow = sym report_overflow,
+    )
+}
+
+/// The stack has left its space.
+extern "C" fn report_overflow() -> ! {
+    if first_report() {
+        defmt::error!("the stack overflowed, which faulted");
+    }
+    exit::stop(Ending::StackOverflowed)
+}
+
+extern "C" fn report_fault(frame: &ExceptionFrame) -> ! {
     if first_report() {
         // SAFETY: reading the status registers of the system control block has no side effect.
         let status = unsafe { &*SCB::PTR };

@@ -86,6 +86,25 @@ fn a_stack_without_room_fails() {
     assert!(last.contains("the stack used its space up"), "{last}");
 }
 
+/// A board whose memory ends where its stack does: the processor faults, and the image says so from a new
+/// stack.
+#[test]
+#[ignore = "needs the images: cargo xtask test"]
+fn a_stack_that_leaves_the_memory_faults() {
+    let machine = Machine::Netduinoplus2;
+    let directory = scratch("faults-leave-memory");
+    fs::write(directory.join("fault.txt"), "leave-memory").unwrap();
+    let result = Run::new(machine, machine.image("faults"))
+        .directory(directory)
+        .run();
+    let (ending, last) = failure(&result);
+    assert_eq!(ending, Some(Ending::StackOverflowed));
+    assert!(
+        last.contains("the stack overflowed, which faulted"),
+        "{last}"
+    );
+}
+
 #[test]
 #[ignore = "needs the images: cargo xtask test"]
 fn a_hanging_image_is_stopped() {

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use crate::command::{Failure, Program};
 use crate::image_check;
+use crate::kernel_check;
 use crate::setup::{self, Need};
 use crate::steps::Steps;
-use crate::workspace::{self, CORE_TARGETS, IMAGE_TARGET};
+use crate::workspace::{self, CORE_TARGETS, IMAGE_TARGET, IMAGE_TARGET_WITHOUT_DSP};
 
 /// The example that `demo` plays.
 const CAGE: &str = "models/finger.msh";
@@ -62,7 +63,8 @@ fn test_steps(steps: &mut Steps) -> Result<(), Failure> {
     })?;
     steps.step("the apply path's image", || {
         image_check::run(&workspace::images()?)
-    })
+    })?;
+    steps.step("the kernels' code", kernel_check::run)
 }
 
 /// Everything that must hold before a change is accepted.
@@ -126,6 +128,15 @@ pub fn verify(cases: u32, seed: u32) -> Result<(), Failure> {
     )?;
     steps.print_times();
     Ok(())
+}
+
+/// The code of the kernels alone.
+pub fn kernels() -> Result<(), Failure> {
+    setup::ensure(&[Need::Targets, Need::LlvmTools])?;
+    for target in [IMAGE_TARGET, IMAGE_TARGET_WITHOUT_DSP] {
+        build_images_of(target, &["--bin", "apply"])?;
+    }
+    kernel_check::run()
 }
 
 /// Every format beside what one would write instead; makes `docs/performance.md`.
@@ -256,19 +267,40 @@ fn bake_example() -> Result<(), Failure> {
 
 /// Builds all images of the firmware.
 fn build_images() -> Result<(), Failure> {
+    // What another board needs is kept aside before the images of the usual one take its place.
+    let board = [
+        "--no-default-features",
+        "--features",
+        "board-netduinoplus2",
+        "--bin",
+        "demo",
+        "--bin",
+        "faults",
+    ];
+    build_images_of(IMAGE_TARGET, &board)?;
+    let images = workspace::images()?;
+    let aside = images.join("netduinoplus2");
+    std::fs::create_dir_all(&aside)
+        .map_err(|error| format!("cannot make {}: {error}", aside.display()))?;
+    for image in ["demo", "faults"] {
+        std::fs::copy(images.join(image), aside.join(image))
+            .map_err(|error| format!("cannot copy the image {image}: {error}"))?;
+    }
+    let without_dsp = ["--bin", "conformance", "--bin", "apply"];
+    build_images_of(IMAGE_TARGET_WITHOUT_DSP, &without_dsp)?;
+    build_images_of(IMAGE_TARGET, &["--bins"])
+}
+
+fn build_images_of(target: &str, selection: &[&str]) -> Result<(), Failure> {
     let build = [
         "build",
         "--release",
         "--package",
         "octruss-firmware",
-        "--bins",
+        "--target",
+        target,
     ];
-    with_example(
-        Program::cargo()
-            .args(build)
-            .args(["--target", IMAGE_TARGET]),
-    )?
-    .run()
+    with_example(Program::cargo().args(build).args(selection))?.run()
 }
 
 /// Plays the example that has been baked and built.

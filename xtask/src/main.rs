@@ -6,6 +6,7 @@
 mod command;
 mod image_check;
 mod jobs;
+mod kernel_check;
 mod setup;
 mod steps;
 mod workspace;
@@ -41,7 +42,9 @@ enum Job {
         #[arg(long, default_value_t = 0)]
         seed: u32,
     },
-    /// Instructions a tap on the emulated processors, beside a float loop
+    /// Looks into the code that the compiler made of the kernels
+    Kernels,
+    /// Every format beside what one would write instead: bytes, instructions, estimated cycles; remakes docs/performance.md
     Bench,
 }
 
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Job::Test => jobs::test(),
         Job::Ci => jobs::ci(),
         Job::Verify { cases, seed } => jobs::verify(cases, seed),
+        Job::Kernels => jobs::kernels(),
         Job::Bench => jobs::bench(),
     };
     match done {

@@ -7,9 +7,12 @@ use crate::command::{Failure, Program};
 
 /// The target of the firmware images.
 pub const IMAGE_TARGET: &str = "thumbv7em-none-eabihf";
-/// The targets that `core` must build for: Cortex-M4 and M7, Cortex-M0, RISC-V.
-pub const CORE_TARGETS: [&str; 3] = [
+/// The target of the images for a processor without instructions for signal processing, Cortex-M3.
+pub const IMAGE_TARGET_WITHOUT_DSP: &str = "thumbv7m-none-eabi";
+/// The targets that `core` must build for: Cortex-M4 and M7, Cortex-M3, Cortex-M0, RISC-V.
+pub const CORE_TARGETS: [&str; 4] = [
     IMAGE_TARGET,
+    IMAGE_TARGET_WITHOUT_DSP,
     "thumbv6m-none-eabi",
     "riscv32imac-unknown-none-elf",
 ];

@@ -1,7 +1,7 @@
 //! Goes wrong on purpose, so that the tests can see that nothing of it passes for success.
 //!
 //! The file `fault.txt` says how: `nothing`, `panic`, `bad-address`, `interrupt`, `overflow`,
-//! `hang`, `silence` (exit code 0 without the end marker), `corrupt-log`, `lock-up`.
+//! `leave-memory`, `hang`, `silence` (exit code 0 without the end marker), `corrupt-log`, `lock-up`.
 #![no_std]
 #![no_main]
 
@@ -40,6 +40,7 @@ fn main() -> ! {
             let depth = descend(0);
             defmt::info!("came back from depth {=u32}", depth);
         }
+        "leave-memory" => leave_memory(0),
         "hang" => loop {
             cortex_m::asm::nop();
         },
@@ -75,6 +76,15 @@ fn descend(depth: u32) -> u32 {
     let reached = descend(depth + 1);
     black_box(frame);
     reached
+}
+
+/// Calls itself until nothing is left of the stack, and no further only because that faults.
+fn leave_memory(depth: u32) {
+    let frame = black_box([depth; 16]);
+    if black_box(true) {
+        leave_memory(depth + 1);
+    }
+    black_box(frame);
 }
 
 /// Prints through semihosting beside the logger.

@@ -16,5 +16,17 @@ pub use mps2::Board;
 #[cfg(feature = "board-mps2")]
 pub(crate) use mps2::on_interrupt;
 
-#[cfg(not(feature = "board-mps2"))]
+#[cfg(feature = "board-netduinoplus2")]
+mod netduinoplus2;
+#[cfg(feature = "board-netduinoplus2")]
+pub use netduinoplus2::Board;
+#[cfg(feature = "board-netduinoplus2")]
+pub(crate) use netduinoplus2::on_interrupt;
+
+#[cfg(not(any(feature = "board-mps2", feature = "board-netduinoplus2")))]
 compile_error!("choose a board: a feature whose name starts with `board-`");
+
+#[cfg(all(feature = "board-mps2", feature = "board-netduinoplus2"))]
+compile_error!(
+    "choose one board: `--no-default-features` takes away the one that is chosen otherwise"
+);

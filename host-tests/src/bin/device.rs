@@ -10,8 +10,20 @@ use octruss_host_tests::qemu::demo::{self, Example, Summary};
 use octruss_host_tests::qemu::judge::{Subject, judge};
 use octruss_host_tests::qemu::{Machine, Run, image};
 
-/// The processors that every job runs on.
-const MACHINES: [Machine; 2] = [Machine::Mps2An386, Machine::Mps2An500];
+/// The processors whose instructions are counted.
+const COUNTED: [Machine; 2] = [Machine::Mps2An386, Machine::Mps2An500];
+
+/// The processors that core is held to the reference on: one without instructions for signal processing
+/// too, where the kernels are the portable ones.
+const JUDGED: [Machine; 3] = [Machine::Mps2An386, Machine::Mps2An500, Machine::Mps2An385];
+
+/// The boards that the demo runs on; the figures are those of the first. The last has the memory of a
+/// real part and none more.
+const PLAYED: [Machine; 3] = [
+    Machine::Mps2An386,
+    Machine::Mps2An500,
+    Machine::Netduinoplus2,
+];
 
 /// The shift of the instruction clock at which counts are exact.
 const EXACT_SHIFT: u8 = 7;
@@ -97,8 +109,7 @@ fn conformance(
     println!("{cases} random cases of each subject, seeds from {seed}");
     for &subject in subjects {
         let started = Instant::now();
-        let image = image("conformance");
-        let found = judge(subject, &MACHINES, &image, directory, seed, cases)?;
+        let found = judge(subject, &JUDGED, directory, seed, cases)?;
         println!("{subject} ({:.1} s)", started.elapsed().as_secs_f32());
         println!("  host: {}", found.host);
         for (machine, verdict) in &found.machines {
@@ -113,7 +124,7 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
     let example = Example::read(&directory)?;
     let picture = directory.join("finger.png");
     let mut played = Vec::new();
-    for machine in MACHINES {
+    for machine in PLAYED {
         let processor = machine.processor();
         println!(
             "The demo runs on an emulated {processor} ({}).",
@@ -121,11 +132,17 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
         );
         // The first run's log is shown; the others say the same.
         let is_first = played.is_empty();
-        let run = demo::play(&example, machine, &image("demo"), &directory, |message| {
-            if is_first {
-                println!("  {:5} {}", message.level, message.text);
-            }
-        })?;
+        let run = demo::play(
+            &example,
+            machine,
+            &machine.image("demo"),
+            &directory,
+            |message| {
+                if is_first {
+                    println!("  {:5} {}", message.level, message.text);
+                }
+            },
+        )?;
         if is_first {
             demo::draw(&example, &run, &cage, &model, &picture)?;
         }
@@ -142,7 +159,7 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
 }
 
 fn bench() -> Result<bool, demo::Failure> {
-    for machine in MACHINES {
+    for machine in COUNTED {
         println!(
             "{} ({}), instructions, exact:",
             machine.processor(),

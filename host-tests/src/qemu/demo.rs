@@ -23,6 +23,11 @@ pub type Failure = Box<dyn std::error::Error>;
 /// about what the processors of this class do.
 pub const SHIFT: u8 = 3;
 
+/// The memory of the part that the demo is to fit, an STM32F405: flash.
+const FLASH_BYTES: u64 = 1 << 20;
+/// Its RAM.
+const RAM_BYTES: u64 = 128 << 10;
+
 /// Tiles of the picture.
 const TILES: usize = 12;
 
@@ -393,11 +398,32 @@ impl Summary<'_> {
                 "control loop",
                 format!("{period_ms} ms a tick, {} missed", number("missed ticks")),
             ),
-            ("stack, most used", bytes("stack bytes")),
-            ("flash", bytes("flash bytes")),
-            ("RAM beside the stack", bytes("static RAM bytes")),
+            ("flash", self.used(FLASH_BYTES, &["flash bytes"])),
+            (
+                "RAM, statics and stack",
+                self.used(RAM_BYTES, &["static RAM bytes", "stack bytes"]),
+            ),
+            ("", format!("{} of statics", bytes("static RAM bytes"))),
+            ("", format!("{} of stack at most", bytes("stack bytes"))),
             ("picture", self.picture.display().to_string()),
         ]
+    }
+
+    /// What the demo takes of a memory, on the board where it takes most, and what is left.
+    fn used(&self, memory: u64, names: &[&str]) -> String {
+        let used = |played: &Played| -> Option<u64> {
+            let figures = names.iter().map(|name| played.figure(name));
+            figures.sum()
+        };
+        match self.played.iter().filter_map(used).max() {
+            Some(used) => format!(
+                "{} of {} bytes, {} % left",
+                grouped(used),
+                grouped(memory),
+                100 * memory.saturating_sub(used) / memory
+            ),
+            None => "unknown".to_owned(),
+        }
     }
 }
 

@@ -73,6 +73,25 @@ impl Machine {
     }
 }
 
+impl Machine {
+    /// Where `cargo xtask` leaves the image `name` for this machine: see [`image`]. A processor without
+    /// instructions for signal processing has images of another target, and a board with other
+    /// peripherals has images of its own.
+    #[must_use]
+    pub fn image(self, name: &str) -> PathBuf {
+        let common = image(name);
+        let up = |levels| common.ancestors().nth(levels).unwrap_or(Path::new("."));
+        match self {
+            Machine::Mps2An386 | Machine::Mps2An500 => common,
+            Machine::Mps2An385 => up(3)
+                .join(IMAGE_TARGET_WITHOUT_DSP)
+                .join("release")
+                .join(name),
+            Machine::Netduinoplus2 => up(1).join("netduinoplus2").join(name),
+        }
+    }
+}
+
 /// What a run that passed has left.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -392,6 +411,9 @@ impl Drop for Emulator {
 
 /// The target that the images are built for.
 pub const IMAGE_TARGET: &str = "thumbv7em-none-eabihf";
+
+/// The target of the images for processors without instructions for signal processing.
+pub const IMAGE_TARGET_WITHOUT_DSP: &str = "thumbv7m-none-eabi";
 
 /// Where `cargo xtask` leaves the image `name`: the directory that the variable `OCTRUSS_IMAGES`
 /// names, or else that of a release build in this workspace.
