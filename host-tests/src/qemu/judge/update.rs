@@ -53,5 +53,6 @@ fn expected(case: &UpdateCase) -> Expected {
         ],
         coordinates: 6 * case.rows.len(),
         saturated: case.at_ends,
+        ..Expected::default()
     }
 }
