@@ -51,11 +51,16 @@
 //! | [`SECTION_TRIANGLE`] | generation, corners, neighbours, x y z of the corners and of their limits |
 //! | [`SECTION_VOLUME`] | see [`volume`]; numbers of 64 bits have their low word first |
 //! | [`SECTION_NORMALS`] | how many are zero, x y z of the normal of each row |
+//! | [`SECTION_SCALARS`] | values saturated, the channels of each row |
+//! | [`SECTION_CHANNELS`] | level, values saturated so far, the channels of each vertex at that level |
+//! | [`SECTION_LABELS`] | level, the label of each tetrahedron at that level; then the same of octahedra |
 
 pub mod apply;
 pub mod box_spline;
+pub mod data;
 pub mod refine;
 mod results;
+pub mod scalars;
 pub mod solid;
 mod space;
 pub mod sqrt3;
@@ -105,6 +110,10 @@ pub const SQRT3_STEPS: u32 = 8;
 pub const VOLUME: u32 = 9;
 /// Kind of a case: evaluate a volume's polynomial in modes.
 pub const VOLUME_MODES: u32 = 10;
+/// Kind of a case: open a bundle and carry scalar channels through its table.
+pub const APPLY_SCALARS: u32 = 16;
+/// Kind of a case: refine channels and hand on labels of a solid in slices.
+pub const REFINE_DATA: u32 = 17;
 
 /// Kind of a case: apply a table again where control points moved, with factored tables and normals too.
 pub const UPDATE: u32 = 20;
@@ -131,6 +140,12 @@ pub const SECTION_TRIANGLE: u32 = 8;
 pub const SECTION_VOLUME: u32 = 9;
 /// Tag of a section with normals.
 pub const SECTION_NORMALS: u32 = 20;
+/// Tag of a section with channels of rows of a table.
+pub const SECTION_SCALARS: u32 = 16;
+/// Tag of a section with the channels of a level.
+pub const SECTION_CHANNELS: u32 = 17;
+/// Tag of a section with the labels of the cells of one shape at a level.
+pub const SECTION_LABELS: u32 = 18;
 
 /// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
 ///
@@ -149,6 +164,8 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         VOLUME => volume::run(words, memory.space(), results),
         VOLUME_MODES => volume::run_modes(words, memory.space(), results),
         UPDATE => update::run(words, memory.space(), results),
+        APPLY_SCALARS => scalars::run(words, memory.space(), results),
+        REFINE_DATA => data::run(words, memory, results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));
@@ -187,10 +204,13 @@ impl<'a> Words<'a> {
 
     /// The next `count` points: raw bits of x, y and z.
     fn points(&mut self, count: usize) -> Result<&'a [[i32; 3]], Status> {
-        use zerocopy::FromBytes;
-        let words: &[[u32; 3]] = self.elements(count)?;
-        // The same size and alignment, so this is never refused.
-        <[[i32; 3]]>::ref_from_bytes(words.as_bytes()).map_err(|_| Status::Malformed)
+        self.values(count)
+    }
+
+    /// The next `count` elements of `N` signed numbers.
+    fn values<const N: usize>(&mut self, count: usize) -> Result<&'a [[i32; N]], Status> {
+        let numbers = count.checked_mul(N).ok_or(Status::Malformed)?;
+        Ok(self.numbers(numbers)?.as_chunks().0)
     }
 
     /// The next `count` signed numbers.

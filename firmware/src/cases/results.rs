@@ -7,7 +7,7 @@ use octruss::bundle::BundleError;
 use octruss::deform::ApplyError;
 use octruss::enclosed::EnclosedError;
 use octruss::mesh::MeshError;
-use zerocopy::IntoBytes;
+use zerocopy::{Immutable, IntoBytes};
 
 use super::{CASE_WORDS_AT_MOST, CHECKSUM, FILE_HEADER_WORDS, RESULTS_MAGIC, SECTION_END, VERSION};
 
@@ -115,10 +115,25 @@ impl<'a, S: Sink> Results<'a, S> {
 
     /// Writes a section: its tag, a few words and points.
     pub(super) fn section(&mut self, tag: u32, words: &[u32], points: &[[i32; 3]]) {
-        let length = word(words.len().saturating_add(points.len().saturating_mul(3)));
+        self.section_of(tag, words, points);
+    }
+
+    /// Writes a section: its tag, a few words and elements that are made of words.
+    pub(super) fn section_of<T: IntoBytes + Immutable>(
+        &mut self,
+        tag: u32,
+        words: &[u32],
+        elements: &[T],
+    ) {
+        let elements = elements.as_bytes();
+        let length = word(
+            words
+                .len()
+                .saturating_add(elements.len() / size_of::<u32>()),
+        );
         self.sink.write([tag, length].as_bytes());
         self.sink.write(words.as_bytes());
-        self.sink.write(points.as_bytes());
+        self.sink.write(elements);
     }
 
     /// Starts a section of `length` words, which [`Self::words`] then writes.

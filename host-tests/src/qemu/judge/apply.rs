@@ -35,11 +35,7 @@ pub(super) fn case(seed: u32) -> Judged {
     let numbers = [start, end, end - start, pose.len(), bundle.bytes.len()];
     let mut words = vec![form];
     words.extend(numbers.map(word));
-    words.extend(bundle.bytes.chunks(4).map(|chunk| {
-        let mut bytes = [0; 4];
-        bytes[..chunk.len()].copy_from_slice(chunk);
-        u32::from_le_bytes(bytes)
-    }));
+    words.extend(bundle_words(&bundle.bytes));
     words.extend(bits(pose));
     let judged = Judged::sound(APPLY, seed, words, applied(&bundle, start, end, form));
     if seed.is_multiple_of(10) {
@@ -47,6 +43,15 @@ pub(super) fn case(seed: u32) -> Judged {
     } else {
         judged
     }
+}
+
+/// A bundle's bytes as a case tells them.
+pub(super) fn bundle_words(bytes: &[u8]) -> impl Iterator<Item = u32> {
+    bytes.chunks(4).map(|chunk| {
+        let mut bytes = [0; 4];
+        bytes[..chunk.len()].copy_from_slice(chunk);
+        u32::from_le_bytes(bytes)
+    })
 }
 
 /// These rows alone, for only they may count what saturates.
@@ -70,7 +75,7 @@ fn applied(bundle: &BundleCase, start: usize, end: usize, form: u32) -> Expected
 }
 
 /// A range of a bundle's rows as a case of its own, in the bundle's order.
-fn rows_of(bundle: &BundleCase, start: usize, end: usize) -> BundleCase {
+pub(super) fn rows_of(bundle: &BundleCase, start: usize, end: usize) -> BundleCase {
     let whole = &bundle.case;
     let mut table = Table {
         offsets: vec![0],

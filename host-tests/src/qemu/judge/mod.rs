@@ -6,6 +6,8 @@
 
 mod apply;
 mod box_spline;
+mod data;
+mod scalars;
 mod sqrt3;
 mod surface;
 mod tet_oct;
@@ -31,6 +33,8 @@ use surface::Scheme;
 pub enum Subject {
     /// Solids of tetrahedra and octahedra, refined in slices and in core's own arenas
     TetOct,
+    /// Scalar channels, labels of cells and crease surfaces between materials
+    Data,
     /// Tables, applied in every format and form
     Apply,
     /// Box-spline solids and their averaged variant, major diagonals chosen and given
@@ -61,6 +65,8 @@ pub enum Subject {
     VolumeModes,
     /// Tables updated in part, factored tables, normals of their points
     Update,
+    /// Scalar channels through tables of every format
+    Scalars,
 }
 
 impl Subject {
@@ -69,6 +75,7 @@ impl Subject {
     pub fn case(self, seed: u32) -> Judged {
         match self {
             Subject::TetOct => tet_oct::case(seed),
+            Subject::Data => data::case(seed),
             Subject::Apply => apply::case(seed),
             Subject::BoxSpline => box_spline::case(seed),
             Subject::Loop => surface::case(Scheme::Loop, seed),
@@ -84,6 +91,7 @@ impl Subject {
             Subject::Volume => volume::form(seed),
             Subject::VolumeModes => volume::polynomial(seed),
             Subject::Update => update::case(seed),
+            Subject::Scalars => scalars::case(seed),
         }
     }
 }
@@ -153,7 +161,7 @@ fn word(number: usize) -> u32 {
     u32::try_from(number).unwrap_or(u32::MAX)
 }
 
-fn bits(points: &[[i32; 3]]) -> impl Iterator<Item = u32> {
+fn bits<const D: usize>(points: &[[i32; D]]) -> impl Iterator<Item = u32> {
     points
         .as_flattened()
         .iter()
