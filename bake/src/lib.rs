@@ -16,12 +16,13 @@
 //! * [`bundle`]: the bytes for the device's flash.
 //! * [`mod@deform`]: the device's own code applied on the host.
 //! * [`mod@slice`]: values on a plane and along a line, and the picture of them.
-//! * [`mod@write`], [`picture`]: files to look at.
+//! * [`mod@write`], [`picture`], [`animation`]: files to look at.
 //!
 //! No mathematics that a device could also need is written here: masks, numbering, rounding and the
 //! apply come from the crate `octruss`. Nothing panics on bad input; errors ([`error::Error`]) say
 //! what, where in which file, and what to do. The binary `octruss` is a thin layer above.
 
+pub mod animation;
 pub mod bundle;
 pub mod check;
 pub mod deform;

@@ -2,6 +2,7 @@
 
 use super::{print_figures, progress::Bars, show_notes};
 use octruss::bundle::Bundle;
+use octruss_bake::animation::{self, Animation};
 use octruss_bake::bundle::BundleBytes;
 use octruss_bake::deform::{
     Form, deform, format_of, is_of_surface, pose_bits, require_cage, require_control_mesh,
@@ -24,18 +25,19 @@ use std::path::{Path, PathBuf};
 /// vertices' coordinates replaced (normals stay those of the rest shape). A pose is a mesh with
 /// the cage's connectivity; a motion is a directory of such meshes, numbered at the end of their
 /// names, or a .csv with the columns frame, point, x, y, z. For a motion, OUT is a directory
-/// (files are named after the model and the frame) or a pattern such as out/frame-%04d.obj.
+/// (files are named after the model and the frame), a pattern such as out/frame-%04d.obj, or one file
+/// with the whole motion: an animated .glb, or a .pvd for ParaView with a .vtu for each frame beside it.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The bundle, as `octruss bake` wrote it
     bundle: PathBuf,
     /// The pose or motion, in the cage's unit
-    #[arg(long, value_name = "POSE")]
+    #[arg(long, visible_alias = "motion", value_name = "POSE")]
     pose: PathBuf,
     /// The model that was baked, at rest: Wavefront .obj
     #[arg(long, value_name = "MODEL")]
     model: PathBuf,
-    /// The file to write, or for a motion a directory or a pattern
+    /// The file to write: the model's format, .glb or .pvd; or for a motion a directory or a pattern
     #[arg(short, long, value_name = "OUT", required_unless_present = "picture")]
     output: Option<PathBuf>,
     /// Which form of the table to apply
@@ -58,9 +60,12 @@ pub struct Arguments {
     /// Direction from the model toward the viewer of the picture
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true, requires = "picture")]
     view: Option<Point>,
-    /// Direction that points upward in the picture; z by default
-    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true, requires = "picture")]
+    /// Direction that points upward in the picture or the .glb; z by default
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     up: Option<Point>,
+    /// Frames a second of a .glb or .pvd, positive
+    #[arg(long, value_name = "RATE", value_parser = frame_rate, default_value_t = 25.0)]
+    frame_rate: f64,
     /// Print the figures as one JSON object
     #[arg(long)]
     json: bool,
@@ -86,7 +91,14 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let is_motion = arguments.pose.is_dir() || read::extension(&arguments.pose) == "csv";
     // All frames before the first file: no motion is left half written by a pose that does not fit.
     let bits = bits_of(&bundle, &frames, &arguments.pose)?;
-    let targets = targets(arguments, &frames, is_motion)?;
+    let animation = arguments
+        .output
+        .as_ref()
+        .filter(|output| animation::EXTENSIONS.contains(&read::extension(output).as_str()));
+    let targets = match animation {
+        Some(_) => Vec::new(),
+        None => targets(arguments, &frames, is_motion)?,
+    };
 
     let mut progress = Bars::default();
     progress.stage("deforming", frames.len());
@@ -102,6 +114,9 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         progress.step();
     }
     progress.finish();
+    if let Some(file) = animation {
+        animate(file, arguments, &bundle, &model, &frames, &deformed)?;
+    }
     if let Some(file) = &arguments.picture {
         draw(file, arguments, &bundle, &model, &frames, deformed, mesh)?;
     }
@@ -245,6 +260,36 @@ impl Pattern {
     }
 }
 
+/// Writes the whole motion as one animation.
+fn animate(
+    file: &Path,
+    arguments: &Arguments,
+    bundle: &Bundle<'_>,
+    model: &Model,
+    frames: &[Frame],
+    deformed: &[Vec<Point>],
+) -> Result<()> {
+    let name = arguments.model.file_stem().unwrap_or_default();
+    let frames: Vec<animation::Frame<'_>> = frames
+        .iter()
+        .zip(deformed)
+        .map(|(frame, points)| animation::Frame {
+            number: frame.number,
+            points,
+        })
+        .collect();
+    let animation = Animation {
+        name: &name.to_string_lossy(),
+        rest: &model.points,
+        faces: &model.faces,
+        frames: &frames,
+        frame_rate: arguments.frame_rate,
+        unit: bundle.unit(),
+        up: arguments.up.unwrap_or(View::default().up),
+    };
+    animation::write(&animation, file)
+}
+
 fn draw(
     file: &Path,
     arguments: &Arguments,
@@ -315,6 +360,14 @@ fn draw(
         out.write_all(&png)
             .map_err(|error| Error::new(format!("cannot be written: {error}")))
     })
+}
+
+/// Parses a positive number.
+fn frame_rate(text: &str) -> std::result::Result<f64, String> {
+    match text.parse() {
+        Ok(rate) if rate > 0.0 && f64::is_finite(rate) => Ok(rate),
+        _ => Err("expected a positive number".to_owned()),
+    }
 }
 
 /// Parses "1,0,0.5".

@@ -4,9 +4,11 @@
 //! complete, so that nobody ever sees half of it and a failure leaves what was there before. What is no
 //! regular file (a pipe, a device) is written to in place, for it has no name to change.
 
+pub mod glb;
 pub mod obj;
 pub mod off;
 pub mod ply;
+pub mod pvd;
 pub mod vtk;
 mod vtk_cells;
 pub mod vtu;

@@ -29,11 +29,21 @@ impl Element {
         Self { kind, corners }
     }
 
-    fn of_sheet(corners: &[Vertex; 3]) -> Self {
+    /// A polygon of a surface.
+    pub fn of_polygon(corners: &[Vertex]) -> Self {
+        let kind = match corners.len() {
+            3 => 5,
+            4 => 9,
+            _ => 7,
+        };
         Self {
-            kind: 5,
+            kind,
             corners: corners.to_vec(),
         }
+    }
+
+    fn of_sheet(corners: &[Vertex; 3]) -> Self {
+        Self::of_polygon(corners)
     }
 }
 

@@ -5,9 +5,9 @@
 //! of VTK since 5.10 reads. Coordinates have the fewest digits that give the same double back.
 
 use super::failed;
-use super::vtk_cells::{elements, labels};
+use super::vtk_cells::{Element, elements, labels};
 use crate::error::Result;
-use crate::mesh::SolidMesh;
+use crate::mesh::{Point, SolidMesh};
 use octruss::mesh::OCTAHEDRON_FACES;
 use std::fmt::Display;
 use std::io::Write;
@@ -20,41 +20,61 @@ pub fn write(mesh: &SolidMesh, out: &mut dyn Write) -> Result<()> {
 }
 
 fn write_grid(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
-    let cells = &mesh.cells;
-    writeln!(out, "<?xml version=\"1.0\"?>")?;
-    writeln!(
-        out,
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"
-    )?;
-    writeln!(out, "<UnstructuredGrid>")?;
-    writeln!(
-        out,
-        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
-        mesh.points.len(),
-        cells.len() + mesh.features.sheets.len()
-    )?;
-    data(mesh, out)?;
-    writeln!(out, "<Points>")?;
-    let points = mesh.points.iter().map(|point| point.as_slice());
-    array(
-        out,
-        "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"",
-        points,
-    )?;
-    writeln!(out, "</Points>\n<Cells>")?;
-    let corners = elements(mesh).map(|element| element.corners);
-    array(out, "type=\"Int64\" Name=\"connectivity\"", corners)?;
-    let ends = elements(mesh).scan(0_usize, |end, element| {
-        *end += element.corners.len();
-        Some([*end])
-    });
-    array(out, "type=\"Int64\" Name=\"offsets\"", ends)?;
-    let types = elements(mesh).map(|element| [element.kind]);
-    array(out, "type=\"UInt8\" Name=\"types\"", types)?;
-    if !cells.octahedra.is_empty() {
-        polyhedra(mesh, out)?;
+    let grid = Grid {
+        points: &mesh.points,
+        elements: || elements(mesh),
+    };
+    let polyhedra = |out: &mut dyn Write| match mesh.cells.octahedra.is_empty() {
+        true => Ok(()),
+        false => polyhedra(mesh, out),
+    };
+    grid.write(|out| data(mesh, out), polyhedra, out)
+}
+
+/// A grid: points, and elements by their corners.
+pub(super) struct Grid<'a, Elements> {
+    pub points: &'a [Point],
+    /// Goes through the elements from the first on.
+    pub elements: Elements,
+}
+
+impl<Elements: Fn() -> Iter, Iter: Iterator<Item = Element>> Grid<'_, Elements> {
+    /// Writes the file; `data` writes what belongs to points and elements, `more` what there is to say of
+    /// the elements beside their corners.
+    pub fn write(
+        &self,
+        data: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+        more: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+        out: &mut dyn Write,
+    ) -> std::io::Result<()> {
+        writeln!(out, "<?xml version=\"1.0\"?>")?;
+        writeln!(
+            out,
+            "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">"
+        )?;
+        writeln!(out, "<UnstructuredGrid>")?;
+        writeln!(
+            out,
+            "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
+            self.points.len(),
+            (self.elements)().count()
+        )?;
+        data(out)?;
+        writeln!(out, "<Points>")?;
+        vectors(out, "Points", self.points.iter())?;
+        writeln!(out, "</Points>\n<Cells>")?;
+        let corners = (self.elements)().map(|element| element.corners);
+        array(out, "type=\"Int64\" Name=\"connectivity\"", corners)?;
+        let ends = (self.elements)().scan(0_usize, |end, element| {
+            *end += element.corners.len();
+            Some([*end])
+        });
+        array(out, "type=\"Int64\" Name=\"offsets\"", ends)?;
+        let types = (self.elements)().map(|element| [element.kind]);
+        array(out, "type=\"UInt8\" Name=\"types\"", types)?;
+        more(out)?;
+        writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
     }
-    writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
 /// Channels and labels.
@@ -81,7 +101,7 @@ fn data(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
 }
 
 /// A name as it may stand in an attribute.
-fn escaped(name: &str) -> String {
+pub(super) fn escaped(name: &str) -> String {
     let replaced = |character: char| match character {
         '&' => "&amp;".to_owned(),
         '<' => "&lt;".to_owned(),
@@ -114,6 +134,16 @@ fn polyhedra(mesh: &SolidMesh, out: &mut dyn Write) -> std::io::Result<()> {
         "type=\"Int64\" Name=\"faceoffsets\"",
         no_polyhedra.chain(ends).chain(others),
     )
+}
+
+/// One array of three numbers a point.
+pub(super) fn vectors(
+    out: &mut dyn Write,
+    name: &str,
+    vectors: impl Iterator<Item = impl AsRef<[f64]>>,
+) -> std::io::Result<()> {
+    let attributes = format!("type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"3\"");
+    array(out, &attributes, vectors)
 }
 
 /// One array, a line for each item.

@@ -123,6 +123,7 @@ fn conformance(
 fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo::Failure> {
     let example = Example::read(&directory)?;
     let picture = directory.join("finger.png");
+    let animations = ["finger.glb", "finger.pvd"].map(|name| directory.join(name));
     let mut played = Vec::new();
     for machine in PLAYED {
         let processor = machine.processor();
@@ -145,6 +146,7 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
         )?;
         if is_first {
             demo::draw(&example, &run, &cage, &model, &picture)?;
+            demo::animate(&example, &run, &model, &animations)?;
         }
         played.push(run);
     }
@@ -153,6 +155,7 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
         taps: example.taps(),
         played: &played,
         picture,
+        animations: animations.to_vec(),
     };
     println!("\n{summary}");
     Ok(summary.mismatches() == 0)

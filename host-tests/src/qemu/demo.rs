@@ -5,10 +5,11 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use octruss_bake::animation::{self, Animation};
 use octruss_bake::bundle::BundleBytes;
 use octruss_bake::deform::format_of;
 use octruss_bake::mesh::Point;
-use octruss_bake::picture::{Frame as Tile, Scene, Sheet, contact_sheet, edges_of};
+use octruss_bake::picture::{Frame as Tile, Scene, Sheet, View, contact_sheet, edges_of};
 use octruss_bake::read;
 use octruss_bake::refine::Level;
 use octruss_firmware::frame::FrameReader;
@@ -257,6 +258,61 @@ fn compare(
     Ok(())
 }
 
+impl Example {
+    /// Points in the unit of the files.
+    fn real(&self, bits: &[[i32; 3]]) -> Result<Vec<Point>, Failure> {
+        Ok(format_of(&self.bundle.open()?).points_of(bits))
+    }
+
+    /// The rows of a frame as the model's points, in the model's order.
+    fn model(&self, rows: &[[i32; 3]]) -> Result<Vec<Point>, Failure> {
+        let mut points = vec![[0.0; 3]; rows.len()];
+        for (point, row) in self.model_points.iter().zip(self.real(rows)?) {
+            points[*point] = row;
+        }
+        Ok(points)
+    }
+}
+
+/// Writes the frames that the device returned as animations of the model: each of `files` in the format
+/// that its extension names.
+///
+/// # Errors
+///
+/// If a file cannot be read or written.
+pub fn animate(
+    example: &Example,
+    played: &Played,
+    model: &Path,
+    files: &[PathBuf],
+) -> Result<(), Failure> {
+    const MICROSECONDS: f64 = 1e6;
+    let bundle = example.bundle.open()?;
+    let name = model.file_stem().unwrap_or_default().to_string_lossy();
+    let model = read::model(model)?;
+    let points = played.frames.iter().map(|rows| example.model(rows));
+    let points: Vec<Vec<Point>> = points.collect::<Result<_, _>>()?;
+    let frames: Vec<animation::Frame<'_>> = (0..)
+        .zip(&points)
+        .map(|(number, points)| animation::Frame { number, points })
+        .collect();
+    let period = played.figure("period us").filter(|period| *period != 0);
+    let animation = Animation {
+        name: &name,
+        rest: &model.points,
+        faces: &model.faces,
+        frames: &frames,
+        frame_rate: MICROSECONDS
+            / period.ok_or("the image does not say how long a tick is")? as f64,
+        unit: bundle.unit(),
+        up: View::default().up,
+    };
+    for file in files {
+        animation::write(&animation, file)?;
+    }
+    Ok(())
+}
+
 /// Draws some of the frames that the device returned, the cage over them, and writes the picture.
 ///
 /// # Errors
@@ -269,29 +325,17 @@ pub fn draw(
     model: &Path,
     picture: &Path,
 ) -> Result<(), Failure> {
-    let bundle = example.bundle.open()?;
-    let last_place = (-f64::from(format_of(&bundle).fraction_bits)).exp2();
-    let real = |bits: &[[i32; 3]]| -> Vec<Point> {
-        let point = |point: &[i32; 3]| point.map(|bits| f64::from(bits) * last_place);
-        bits.iter().map(point).collect()
-    };
     let triangles = read::model(model)?.triangles();
     let cage_edges = edges_of(&Level::new(&read::solid(cage)?)?.skin());
-    let in_order = |rows: &[[i32; 3]]| -> Vec<Point> {
-        let mut points = vec![[0.0; 3]; rows.len()];
-        for (point, row) in example.model_points.iter().zip(real(rows)) {
-            points[*point] = row;
-        }
-        points
-    };
     let count = played.frames.len().min(example.poses.len());
-    let tiles: Vec<Tile> = chosen(count)
-        .map(|number| Tile {
+    let tile = |number: usize| -> Result<Tile, Failure> {
+        Ok(Tile {
             caption: format!("frame {number}"),
-            model: in_order(&played.frames[number]),
-            cage: real(&example.poses[number]),
+            model: example.model(&played.frames[number])?,
+            cage: example.real(&example.poses[number])?,
         })
-        .collect();
+    };
+    let tiles: Vec<Tile> = chosen(count).map(tile).collect::<Result<_, _>>()?;
     let scene = Scene {
         triangles: &triangles,
         cage_edges: &cage_edges,
@@ -323,6 +367,8 @@ pub struct Summary<'a> {
     pub played: &'a [Played],
     /// Where the picture is.
     pub picture: PathBuf,
+    /// Where the animations are.
+    pub animations: Vec<PathBuf>,
 }
 
 impl Summary<'_> {
@@ -407,6 +453,13 @@ impl Summary<'_> {
             ("", format!("{} of stack at most", bytes("stack bytes"))),
             ("picture", self.picture.display().to_string()),
         ]
+        .into_iter()
+        .chain(
+            self.animations
+                .iter()
+                .map(|file| ("animation", file.display().to_string())),
+        )
+        .collect()
     }
 
     /// What the demo takes of a memory, on the board where it takes most, and what is left.
