@@ -4,6 +4,7 @@
 //! manager); what computes lives in the packages that it builds and runs.
 
 mod command;
+mod fuzz;
 mod image_check;
 mod jobs;
 mod kernel_check;
@@ -46,6 +47,14 @@ enum Job {
     Kernels,
     /// Every format beside what one would write instead: bytes, instructions, estimated cycles; remakes docs/performance.md
     Bench,
+    /// Feeds every reader, and the opening and applying of bundles, with made-up bytes
+    Fuzz {
+        /// The targets; all of them if none is named
+        targets: Vec<String>,
+        /// How many inputs each target gets
+        #[arg(long, default_value_t = 1_000_000)]
+        runs: u64,
+    },
 }
 
 fn main() -> ExitCode {
@@ -57,6 +66,7 @@ fn main() -> ExitCode {
         Job::Verify { cases, seed } => jobs::verify(cases, seed),
         Job::Kernels => jobs::kernels(),
         Job::Bench => jobs::bench(),
+        Job::Fuzz { targets, runs } => fuzz::run(&targets, runs),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

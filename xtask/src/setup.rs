@@ -21,6 +21,8 @@ pub enum Need {
     Emulator,
     /// `arm-none-eabi-gcc` and `llvm-mca`, for the rivals of the benchmark alone.
     ArmCompiler,
+    /// `cargo fuzz`, for the fuzz targets alone.
+    Fuzzer,
 }
 
 /// Everything that any job needs.
@@ -52,6 +54,7 @@ pub fn ensure(needs: &[Need]) -> Result<(), Failure> {
         Need::Clippy => ensure_component("clippy", || Ok(cargo_has("clippy"))),
         Need::Emulator => ensure_emulator(),
         Need::ArmCompiler => ensure_arm_compiler(),
+        Need::Fuzzer => ensure_fuzzer(),
     })
 }
 
@@ -78,6 +81,16 @@ fn ensure_component(
     Err(format!(
         "rustup installed {component}, but it still does not run"
     ))
+}
+
+fn ensure_fuzzer() -> Result<(), Failure> {
+    if cargo_has("fuzz") {
+        return Ok(());
+    }
+    println!("cargo-fuzz is missing; cargo installs it.");
+    Program::cargo()
+        .args(["install", "--locked", "cargo-fuzz"])
+        .run()
 }
 
 /// Whether cargo knows the subcommand. A rustup proxy without its component fails too.
