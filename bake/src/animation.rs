@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::mesh::Point;
 use std::path::Path;
 
-/// The extensions of the files that [`write`] writes.
+/// The extensions of the files that [`write()`] writes.
 pub const EXTENSIONS: [&str; 2] = ["glb", "pvd"];
 
 /// A model at one moment.
