@@ -64,5 +64,6 @@ fn applied<const D: usize>(
         }],
         coordinates: D * applied.points.len(),
         saturated: applied.saturated,
+        ..Expected::default()
     }
 }
