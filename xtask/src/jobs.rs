@@ -126,6 +126,17 @@ pub fn verify(cases: u32, seed: u32) -> Result<(), Failure> {
         "random cases on the host and the emulated processors",
         || conformance(Build::Release, cases, seed),
     )?;
+    steps.step("channels and labels on the host", || {
+        proof_test(&["data_equality", "scalars"])
+            .env("OCTRUSS_CASES", cases.to_string())
+            .args(["--", "--nocapture"])
+            .run()
+    })?;
+    steps.step("every bit of the demo's bundle", || {
+        proof_test(&["bit_flips"])
+            .args(["--", "--ignored", "--nocapture"])
+            .run()
+    })?;
     steps.print_times();
     Ok(())
 }
@@ -137,6 +148,35 @@ pub fn kernels() -> Result<(), Failure> {
         build_images_of(target, &["--bin", "apply"])?;
     }
     kernel_check::run()
+}
+
+/// Tests of the host in the build of the long proofs.
+fn proof_test(names: &[&str]) -> Program {
+    let package = [
+        "test",
+        "--profile",
+        "proof",
+        "--package",
+        "octruss-host-tests",
+    ];
+    let names = names.iter().flat_map(|name| ["--test", name]);
+    Program::cargo().args(package).args(names)
+}
+
+/// Seconds and memory that baking takes, by the size of the model.
+pub fn bench_bake() -> Result<(), Failure> {
+    let example = [
+        "run",
+        "--quiet",
+        "--profile",
+        "proof",
+        "--package",
+        "octruss-bake",
+    ];
+    Program::cargo()
+        .args(example)
+        .args(["--example", "scale"])
+        .run()
 }
 
 /// Every format beside what one would write instead; makes `docs/performance.md`.

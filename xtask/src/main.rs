@@ -47,6 +47,8 @@ enum Job {
     Kernels,
     /// Every format beside what one would write instead: bytes, instructions, estimated cycles; remakes docs/performance.md
     Bench,
+    /// Seconds, microseconds a point and memory that baking takes, by the size of the model
+    BenchBake,
     /// Feeds every reader, and the opening and applying of bundles, with made-up bytes
     Fuzz {
         /// The targets; all of them if none is named
@@ -66,6 +68,7 @@ fn main() -> ExitCode {
         Job::Verify { cases, seed } => jobs::verify(cases, seed),
         Job::Kernels => jobs::kernels(),
         Job::Bench => jobs::bench(),
+        Job::BenchBake => jobs::bench_bake(),
         Job::Fuzz { targets, runs } => fuzz::run(&targets, runs),
     };
     match done {

@@ -2,7 +2,7 @@
 
 use core::mem::size_of;
 
-use crc::{CRC_32_ISO_HDLC, Crc};
+use crc::{CRC_32_ISO_HDLC, Crc, Table};
 
 use super::error::BundleError;
 use super::header::{Header, Section};
@@ -74,8 +74,15 @@ pub(super) fn size(count: u32) -> Option<usize> {
     usize::try_from(count).ok()
 }
 
-/// CRC-32 (ISO 3309) with its table of 256 words.
-const CRC_32: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+/// How many bytes a step of the checksum takes, with a table of 256 words for each: one on a device, where
+/// a table takes flash, sixteen on a computer, where opening a large bundle takes time.
+#[cfg(target_pointer_width = "64")]
+type Steps = Table<16>;
+#[cfg(not(target_pointer_width = "64"))]
+type Steps = Table<1>;
+
+/// CRC-32 (ISO 3309).
+static CRC_32: Crc<u32, Steps> = Crc::<u32, Steps>::new(&CRC_32_ISO_HDLC);
 
 /// The checksum of some bytes, as the header's fields for cage and model hold it.
 #[must_use]
