@@ -5,12 +5,14 @@
 //! and if there is such a plane there is one through three of their eight corners: the planes
 //! between them form a cone, and an edge of that cone touches three corners that lie on no line. So
 //! all planes through three corners are tried, and on which side of them the others lie is decided
-//! exactly ([`crate::geometry`]). An octahedron is the four tetrahedra round the diagonal that cuts it.
+//! exactly ([`crate::geometry`]). An octahedron is the four tetrahedra round the diagonal that cuts it; a
+//! prism or hexahedron with plane faces is cut into tetrahedra too. One with bent faces is left out:
+//! where its quadrilaterals run depends on its neighbours, and touching must not pass for sharing.
 
 use crate::error::{Error, Result, count};
 use crate::geometry::{bounds, inside_of_face, tetrahedron_volume_6};
 use crate::locate::octahedron::Octahedron;
-use crate::mesh::{Cells, Point, SolidMesh, Vertex};
+use crate::mesh::{Cells, Point, Shape, SolidMesh, Vertex};
 use rstar::RTree;
 use rstar::primitives::{GeomWithData, Rectangle};
 
@@ -21,8 +23,8 @@ type Corners = [Vertex; 4];
 type PartBox = GeomWithData<Rectangle<Point>, usize>;
 
 /// The pairs of cells that share space, as places in [`Cells::corners`], ascending, each with the
-/// lesser first. Cells without volume and folded octahedra take no space here: these are faults of
-/// their own.
+/// lesser first. Cells without volume and folded octahedra take no space here: these are faults
+/// of their own.
 pub fn overlapping_cells(cells: &Cells, points: &[Point]) -> Vec<[usize; 2]> {
     let parts = parts(cells, points);
     let boxes = parts.iter().enumerate().filter_map(|(index, (_, part))| {
@@ -62,20 +64,52 @@ pub fn require_none(mesh: &SolidMesh) -> Result<()> {
 /// The tetrahedra that the cells are made of, each with its cell.
 fn parts(cells: &Cells, points: &[Point]) -> Vec<(usize, Corners)> {
     let position = |vertex: Vertex| points[vertex as usize];
-    let has_volume = |part: &Corners| tetrahedron_volume_6(part.map(position)) != 0.0;
-    let tetrahedra = cells.tetrahedra.iter().copied().enumerate();
-    let octahedra = (cells.tetrahedra.len()..).zip(&cells.octahedra);
-    let of_octahedra = octahedra.flat_map(|(cell, corners)| {
+    let volume = |part: &Corners| tetrahedron_volume_6(part.map(position));
+    let mut parts = Vec::new();
+    for (cell, part) in cells.tetrahedra.iter().enumerate() {
+        if volume(part) != 0.0 {
+            parts.push((cell, *part));
+        }
+    }
+    let mut cell = cells.tetrahedra.len();
+    for corners in &cells.octahedra {
         let shape = Octahedron::new(corners.map(position));
-        let parts = match shape.is_sound() {
-            true => shape.parts().to_vec(),
-            false => Vec::new(),
-        };
-        let own = |part: [usize; 4]| (cell, part.map(|corner| corners[corner]));
-        parts.into_iter().map(own).collect::<Vec<_>>()
-    });
-    let sound = tetrahedra.filter(|(_, part)| has_volume(part));
-    sound.chain(of_octahedra).collect()
+        if shape.is_sound() {
+            let own = shape.parts().map(|part| part.map(|corner| corners[corner]));
+            parts.extend(own.map(|part| (cell, part)));
+        }
+        cell += 1;
+    }
+    let prisms = cells
+        .prisms
+        .iter()
+        .map(|prism| (Shape::Prism, prism.as_slice()));
+    let hexahedra = cells.hexahedra.iter();
+    let hexahedra = hexahedra.map(|hexahedron| (Shape::Hexahedron, hexahedron.as_slice()));
+    for (shape, corners) in prisms.chain(hexahedra) {
+        let own: Vec<Corners> = cut(shape)
+            .map(|part| part.map(|corner| corners[corner]))
+            .collect();
+        let is_plane = |quad: &[usize; 4]| volume(&quad.map(|corner| corners[corner])) == 0.0;
+        if shape.quads().iter().all(is_plane) && own.iter().all(|part| volume(part) > 0.0) {
+            parts.extend(own.into_iter().map(|part| (cell, part)));
+        }
+        cell += 1;
+    }
+    parts
+}
+
+/// Places of the corners of the tetrahedra into which a prism or hexahedron is cut, positive if it is.
+fn cut(shape: Shape) -> impl Iterator<Item = [usize; 4]> {
+    /// Of a prism.
+    const TETRAHEDRA: [[usize; 4]; 3] = [[0, 1, 2, 5], [0, 1, 5, 4], [0, 4, 5, 3]];
+    let prisms: &[[usize; 6]] = match shape {
+        Shape::Prism => &[[0, 1, 2, 3, 4, 5]],
+        Shape::Hexahedron => &[[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]],
+        Shape::Tetrahedron | Shape::Octahedron => &[],
+    };
+    let of_prism = |prism: &[usize; 6]| TETRAHEDRA.map(|part| part.map(|corner| prism[corner]));
+    prisms.iter().flat_map(of_prism)
 }
 
 /// Whether two boxes share more than a side.

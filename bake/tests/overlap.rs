@@ -277,6 +277,37 @@ fn sound_meshes_have_none() {
     }
 }
 
+/// A cube, beside it a prism on its side, and a cube that stands with a corner in the first one.
+#[test]
+fn prisms_and_hexahedra_with_plane_faces() {
+    let cube = |low: f64| {
+        let corners = [[0, 0], [1, 0], [1, 1], [0, 1]];
+        [0, 1].map(|z| corners.map(|[x, y]| [x, y, z].map(|step| low + f64::from(step))))
+    };
+    let mut mesh = SolidMesh {
+        points: [cube(0.0), cube(0.75)].concat().concat(),
+        cells: Cells {
+            prisms: vec![[1, 16, 2, 5, 17, 6]],
+            hexahedra: vec![[0, 1, 2, 3, 4, 5, 6, 7], [8, 9, 10, 11, 12, 13, 14, 15]],
+            ..Cells::default()
+        },
+        ..SolidMesh::default()
+    };
+    mesh.points.extend([[1.5, 0.0, 0.0], [1.5, 0.0, 1.0]]);
+    // The prism ends at x + y/2 = 1.5, beyond the second cube's corner (0.75, 0.75).
+    assert_eq!(
+        overlapping_cells(&mesh.cells, &mesh.points),
+        [[0, 2], [1, 2]]
+    );
+    let message = require_none(&mesh).unwrap_err().to_string();
+    assert!(
+        message.starts_with("2 pairs of cells share space, first prism 0 and hexahedron 1"),
+        "{message}"
+    );
+    mesh.cells.hexahedra.pop();
+    require_none(&mesh).unwrap();
+}
+
 /// Two blocks of cubes of which the second stands with one corner in the middle of the first's last
 /// cube: that cube's six tetrahedra against the first cube's six of the other.
 #[test]
