@@ -301,7 +301,7 @@ fn doubtful_cells() {
         (
             "cells that share an edge alone",
             vec![[0, 1, 2, 3], [4, 0, 1, 5]],
-            "warning: the boundary touches itself at 1 edge, first from vertex 0 to vertex 1 (counted from 0): other than two boundary triangles meet there\n",
+            "warning: the boundary touches itself at 1 edge, first from vertex 0 to vertex 1 (counted from 0): other than two boundary faces meet there\n",
         ),
     ] {
         let folder = Folder::new();
