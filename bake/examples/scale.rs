@@ -35,8 +35,10 @@ fn main() -> ExitCode {
 }
 
 fn all_sizes() -> ExitCode {
-    println!("| model points | seconds | \u{b5}s a point | peak memory, MiB | bundle, bytes |");
-    println!("| ---: | ---: | ---: | ---: | ---: |");
+    println!(
+        "| model points | seconds | processor seconds | processor \u{b5}s a point | peak memory, MiB | bundle, bytes |"
+    );
+    println!("| ---: | ---: | ---: | ---: | ---: | ---: |");
     let program = std::env::current_exe().unwrap_or_default();
     for size in SIZES {
         let baked = Command::new(&program).arg(size.to_string()).status();
@@ -64,9 +66,15 @@ fn one_size(count: usize) -> ExitCode {
         || "unknown".to_owned(),
         |bytes| format!("{:.0}", bytes as f64 / f64::from(1 << 20)),
     );
+    let (busy, each) = processor_seconds().map_or_else(
+        || ("unknown".to_owned(), "unknown".to_owned()),
+        |busy| {
+            let each = busy * 1e6 / count as f64;
+            (format!("{busy:.2}"), format!("{each:.1}"))
+        },
+    );
     println!(
-        "| {count} | {seconds:.2} | {:.1} | {memory} | {} |",
-        seconds * 1e6 / count as f64,
+        "| {count} | {seconds:.2} | {busy} | {each} | {memory} | {} |",
         baked.bundle.len()
     );
     if std::env::var_os("OCTRUSS_STAGES").is_some() {
@@ -180,6 +188,20 @@ fn peak_memory() -> Option<u64> {
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     let kibibytes: u64 = line.split_ascii_whitespace().nth(1)?.parse().ok()?;
     Some(kibibytes << 10)
+}
+
+/// What this process has taken of all processors, where the system tells: other work on the machine
+/// does not count.
+fn processor_seconds() -> Option<f64> {
+    // The unit in which Linux tells it to programs.
+    const TICKS_A_SECOND: f64 = 100.0;
+    let status = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name in parentheses; the twelfth and thirteenth fields there.
+    let (_, fields) = status.rsplit_once(')')?;
+    let mut fields = fields.split_ascii_whitespace().skip(11);
+    let user: f64 = fields.next()?.parse().ok()?;
+    let system: f64 = fields.next()?.parse().ok()?;
+    Some((user + system) / TICKS_A_SECOND)
 }
 
 /// When each stage of baking began.

@@ -52,6 +52,11 @@ impl Cost {
         }
     }
 
+    /// Instructions of a row with so many taps, in whatever group it may be: no fewer.
+    pub fn row_at_least(&self, taps: usize) -> f64 {
+        self.row + self.tap * taps as f64
+    }
+
     /// Instructions of a group.
     pub fn group(&self, rows: usize, points: usize) -> f64 {
         let taps = self.taps(points) as f64;

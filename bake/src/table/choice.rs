@@ -10,6 +10,7 @@ use super::measure::measure;
 use super::quantise::{QuantisedRow, quantise_to, total_change};
 use crate::error::{Error, Result};
 use crate::mesh::Point;
+use crate::pack::cost::Cost;
 use crate::pack::sections::{Source, Stage};
 use crate::pack::writer::{self, Section};
 use crate::pack::{Layout, Taps};
@@ -216,12 +217,14 @@ impl Material<'_> {
 
     fn pack(&self, format: TableFormat, displacement: f64, keep_order: bool) -> Option<Packed> {
         if format.is_factored() {
-            let levels = 1..=self.matrices.len();
-            let tables = levels
-                .filter_map(|level| self.pack_factored(format, level, displacement, keep_order));
-            let cheapest =
-                tables.min_by(|a, b| a.report.instructions.total_cmp(&b.report.instructions))?;
-            return Some(self.measured(cheapest, displacement));
+            let mut cheapest: Option<Packed> = None;
+            for level in 1..=self.matrices.len() {
+                let cost = |table: &Packed| table.report.instructions;
+                let most = cheapest.as_ref().map_or(f64::INFINITY, cost);
+                let table = self.pack_factored(format, level, displacement, keep_order, most);
+                cheapest = table.filter(|table| cost(table) < most).or(cheapest);
+            }
+            return Some(self.measured(cheapest?, displacement));
         }
         let layout = format.layout(displacement)?;
         let rows = quantised(self.rows, layout)?;
@@ -246,13 +249,15 @@ impl Material<'_> {
         Some(self.measured(packed, displacement))
     }
 
-    /// The table by way of the vertices of a level.
+    /// The table by way of the vertices of a level; `None` too if its first rows alone take as many
+    /// instructions as `most`.
     fn pack_factored(
         &self,
         format: TableFormat,
         level: usize,
         displacement: f64,
         keep_order: bool,
+        most: f64,
     ) -> Option<Packed> {
         let (before, after) = self.matrices.split_at_checked(level)?;
         let columns = u32::try_from(before.last()?.len()).ok()?;
@@ -274,6 +279,11 @@ impl Material<'_> {
 
         let layout = format.layout(displacement)?;
         let rows = quantised(&real_first, layout)?;
+        let cost = Cost::of(layout);
+        let least = rows.iter().map(|row| cost.row_at_least(row.taps.len()));
+        if least.sum::<f64>() >= most {
+            return None;
+        }
         let first = stage(&rows, layout, self.rest_cage, &rest_used, false)?;
         let first_bound = Bound::of(&real_first, &rows, self.composition);
         let moved = displacement * first_bound.magnitude + 1.0;
