@@ -11,6 +11,7 @@ pub use bundle::bundle;
 use octruss_bake::error::Result;
 use octruss_bake::mesh::SolidMesh;
 use octruss_bake::read::models::Model;
+use octruss_bake::refine::Scheme;
 use octruss_bake::{check, inspect, write};
 
 /// Drops a result; an error must have words.
@@ -27,7 +28,9 @@ pub fn solid(result: Result<SolidMesh>) {
     };
     let _ = shown(check::require_sound_connectivity(&mesh));
     let _ = shown(check::require_positive_volumes(&mesh));
-    let _ = shown(inspect::inspect(&mesh, 2));
+    for scheme in [Scheme::TetOct, Scheme::Mixed] {
+        let _ = shown(inspect::inspect(&mesh, scheme, 2));
+    }
     for format in write::SOLID_EXTENSIONS {
         let _ = shown(write::solid(format, &mesh, &mut std::io::sink()));
     }

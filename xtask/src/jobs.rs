@@ -104,6 +104,13 @@ pub fn ci() -> Result<(), Failure> {
         .args(["--", "--deny", "warnings"])
         .run()
     })?;
+    steps.step("the fuzz targets compile", || {
+        let check = ["check", "--manifest-path", "fuzz/Cargo.toml", "--bins"];
+        Program::cargo()
+            .args(check)
+            .env("CARGO_TARGET_DIR", workspace::target()?.join("fuzz"))
+            .run()
+    })?;
     steps.step("documentation", || {
         // Libraries alone: the baker's program has the name of core's library.
         document(&["octruss", "octruss-bake", "octruss-host-tests"], &[])?;
