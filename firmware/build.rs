@@ -32,6 +32,7 @@ fn main() {
         println!("cargo::rerun-if-env-changed={RIVALS_DIRECTORY}");
         println!("cargo::rustc-link-search={}", variable(RIVALS_DIRECTORY));
         println!("cargo::rustc-link-arg-bin=rivals=-Tdefmt.x");
+        println!("cargo::rustc-link-arg-bin=refine=-Tdefmt.x");
     }
 }
 

@@ -204,6 +204,8 @@ pub fn bench() -> Result<(), Failure> {
         "rivals",
         "--bin",
         "rivals",
+        "--bin",
+        "refine",
     ];
     Program::cargo()
         .args(build)

@@ -101,6 +101,7 @@ fn main() -> ! {
         wide(&mut counter, (name, absolute), bytes, pose);
     }
     narrow(&mut counter, compact, pose);
+    normals(&mut counter, q30);
     let q30 = load(0, c"q30-factored.oct");
     let q14 = load(1, c"q14-factored.oct");
     let compact = load(2, c"compact-factored.oct");
@@ -271,6 +272,24 @@ fn narrow(counter: &mut InstructionCounter, bytes: &[u8], pose: &[[i32; 3]]) {
     report(counter, "compact", || {
         let displacements = table.displacements(pose, memory);
         black_box(displacements.and_then(|moved| table.apply(0..table.rows(), &moved, out)))
+    });
+}
+
+/// Normals of the rows that were computed last.
+fn normals(counter: &mut InstructionCounter, bytes: &[u8]) {
+    let bundle = Bundle::new_checked(black_box(bytes));
+    let Ok(Some(normals)) = bundle.and_then(|bundle| bundle.normals()) else {
+        refuse("the bundle has no normals")
+    };
+    let rows = normals.rows();
+    let (Some(points), Some(out)) = (
+        piece::<[i32; 3]>(4).get(..rows),
+        piece::<[i16; 3]>(5).get_mut(..rows),
+    ) else {
+        refuse("the table has too many rows")
+    };
+    report(counter, "normals", || {
+        black_box(normals.apply(0..rows, points, out))
     });
 }
 

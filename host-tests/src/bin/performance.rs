@@ -10,7 +10,9 @@ use std::time::{Duration, Instant};
 use clap::Parser;
 use octruss::deform::Displacement;
 use octruss_bake::bundle::BundleBytes;
-use octruss_host_tests::performance::cycles::{Loop, c_loop, cycles_a_tap, kernels};
+use octruss_host_tests::performance::cycles::{
+    Loop, c_loop, cycles_a_tap, cycles_by_manual, kernels,
+};
 use octruss_host_tests::performance::input::{Failure, Inputs, make};
 use octruss_host_tests::performance::page::{Line, Measured, page};
 use octruss_host_tests::qemu::{Machine, Run, image};
@@ -51,8 +53,11 @@ fn main() -> ExitCode {
 
 fn measure(arguments: &Arguments) -> Result<bool, Failure> {
     let inputs = make(&arguments.directory, &arguments.cage, &arguments.model)?;
-    let first = figures(arguments)?;
-    let is_repeatable = figures(arguments)? == first;
+    let run = || -> Result<Figures, Failure> {
+        Ok([figures(arguments, "rivals")?, figures(arguments, "refine")?].concat())
+    };
+    let first = run()?;
+    let is_repeatable = run()? == first;
     let assembly = fs::read_to_string(arguments.directory.join("rivals.s"))?;
     let mut loops = kernels()?;
     loops.push(c_loop(&assembly, "rival_csr")?);
@@ -80,12 +85,14 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
             name: name.to_owned(),
             instructions: *instructions,
             cycles: [cycles("cortex-m4"), cycles("cortex-m7")],
+            by_manual: code.map(cycles_by_manual),
         });
     }
     let measured = Measured {
         host: host(&inputs, &arguments.directory)?,
         inputs: &inputs,
         lines,
+        others: first.clone(),
         is_repeatable,
     };
     let text = page(&measured);
@@ -94,9 +101,12 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
     Ok(is_repeatable)
 }
 
-/// The figures of one run of the image on the emulated Cortex-M4.
-fn figures(arguments: &Arguments) -> Result<Vec<(String, u64)>, Failure> {
-    let outcome = Run::new(Machine::Mps2An386, image("rivals"))
+/// Figures by name.
+type Figures = Vec<(String, u64)>;
+
+/// The figures of one run of an image on the emulated Cortex-M4.
+fn figures(arguments: &Arguments, name: &str) -> Result<Figures, Failure> {
+    let outcome = Run::new(Machine::Mps2An386, image(name))
         .directory(&arguments.directory)
         .instruction_shift(EXACT_SHIFT)
         .time_limit(Duration::from_secs(300))

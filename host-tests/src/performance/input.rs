@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use octruss_bake::bundle::BundleBytes;
 use octruss_bake::mesh::Point;
 use octruss_bake::pack::Layout;
 use octruss_bake::pack::cost::Cost;
@@ -10,7 +11,7 @@ use octruss_bake::pack::group::group;
 use octruss_bake::progress::Silent;
 use octruss_bake::read;
 use octruss_bake::refine::rows::Row;
-use octruss_bake::table::{FormatReport, Input, Options, TableFormat, bake};
+use octruss_bake::table::{FormatReport, Input, NormalsReport, Options, TableFormat, bake};
 
 /// Why nothing can be measured.
 pub type Failure = Box<dyn std::error::Error>;
@@ -23,6 +24,10 @@ pub struct Inputs {
     pub taps: usize,
     /// Control points.
     pub control_points: usize,
+    /// Cells of the cage.
+    pub cells: usize,
+    /// The faces for normals.
+    pub normals: Option<NormalsReport>,
     /// Every format.
     pub formats: Vec<FormatReport>,
     /// Bytes of a tap in floating point with its index, row starts included.
@@ -48,6 +53,8 @@ pub fn make(directory: &Path, cage_file: &Path, model_file: &Path) -> Result<Inp
         let mut options = Options::default();
         options.request.format = Some(format);
         options.request.survey = format == TableFormat::Q30;
+        // One bundle has the faces too.
+        options.faces = (format == TableFormat::Q30).then(|| model.faces.clone());
         let baked = bake(input, &options, &mut Silent)?;
         let name = format.name();
         fs::write(directory.join(format!("{name}.oct")), &baked.bundle)?;
@@ -56,6 +63,9 @@ pub fn make(directory: &Path, cage_file: &Path, model_file: &Path) -> Result<Inp
         }
     }
     let baked = made.ok_or("no format was baked")?;
+    let bytes = BundleBytes::new(&baked.bundle);
+    let cage_bytes = cage_bytes(&cage.cells.tetrahedra, bytes.open()?.rest_cage());
+    fs::write(directory.join("cage.bin"), cage_bytes)?;
     let rows: &[Vec<(u32, f64)>] = &baked.rows;
     let (bytes, csr_bytes_a_tap) = rivals(rows);
     fs::write(directory.join("rivals.bin"), bytes)?;
@@ -64,9 +74,22 @@ pub fn make(directory: &Path, cage_file: &Path, model_file: &Path) -> Result<Inp
         rows: rows.len(),
         taps: rows.iter().map(Vec::len).sum(),
         control_points: points.len(),
+        cells: cage.cells.len(),
+        normals: baked.report.normals,
         formats: baked.report.formats,
         csr_bytes_a_tap,
     })
+}
+
+/// The cage as the image `refine` reads it.
+fn cage_bytes(tetrahedra: &[[u32; 4]], points: &[[i32; 3]]) -> Vec<u8> {
+    let counts = [points.len() as u32, tetrahedra.len() as u32];
+    let words = counts.iter().chain(tetrahedra.as_flattened()).copied();
+    let bits = points
+        .as_flattened()
+        .iter()
+        .map(|bits| bits.cast_unsigned());
+    words.chain(bits).flat_map(u32::to_le_bytes).collect()
 }
 
 /// The rows in floating point as the image `rivals` reads them, and the bytes of a tap as compressed sparse

@@ -12,6 +12,8 @@ pub struct Line {
     pub instructions: u64,
     /// Estimated cycles a tap of the hot loop, Cortex-M4 and Cortex-M7.
     pub cycles: [Option<f64>; 2],
+    /// Cycles a tap by the Cortex-M4's manual.
+    pub by_manual: Option<f64>,
 }
 
 /// What was measured.
@@ -22,6 +24,8 @@ pub struct Measured<'a> {
     pub lines: Vec<Line>,
     /// Rows a second on this host, by name.
     pub host: Vec<(String, f64)>,
+    /// Every figure of the images, by name.
+    pub others: Vec<(String, u64)>,
     /// Whether two runs gave the same counts.
     pub is_repeatable: bool,
 }
@@ -48,6 +52,8 @@ pub fn page(measured: &Measured<'_>) -> String {
     );
     bytes(&mut text, inputs);
     instructions(&mut text, measured);
+    normals(&mut text, measured);
+    refine(&mut text, measured);
     host(&mut text, measured);
     text
 }
@@ -87,8 +93,8 @@ fn bytes(text: &mut String, inputs: &Inputs) {
 fn instructions(text: &mut String, measured: &Measured<'_>) {
     text.push_str(
         "## Instructions and estimated cycles\n\n\
-         | loop | instructions a frame | a tap | ratio | cycles a tap, Cortex-M4 | ratio | cycles a tap, Cortex-M7 | ratio |\n\
-         | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+         | loop | instructions a frame | a tap | ratio | cycles a tap, Cortex-M4 | ratio | cycles a tap, Cortex-M7 | ratio | cycles a tap by the manual, Cortex-M4 | ratio |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
     );
     let Some(rival) = measured.lines.first() else {
         return;
@@ -107,9 +113,17 @@ fn instructions(text: &mut String, measured: &Measured<'_>) {
                 _ => write!(text, "| | "),
             };
         }
+        let _ = match (line.by_manual, rival.by_manual) {
+            (Some(own), Some(other)) => write!(text, "| {own:.2} | {:.2} ", own / other),
+            _ => write!(text, "| | "),
+        };
         text.push_str("|\n");
     }
     text.push('\n');
+    text.push_str(
+        "By the manual a load takes two cycles, several registers one each and one more, a fused\n\
+         multiplication three, a branch two, all else one: an upper bound, as loads are pipelined.\n\n",
+    );
     if measured.is_repeatable {
         text.push_str("Two runs gave the same counts.\n");
     } else {
@@ -117,6 +131,53 @@ fn instructions(text: &mut String, measured: &Measured<'_>) {
     }
     if rival.cycles[0].is_none() {
         text.push_str("Cycles are missing: `llvm-mca` is not installed.\n");
+    }
+}
+
+/// A figure by its name.
+fn figure(measured: &Measured<'_>, name: &str) -> Option<u64> {
+    let found = measured.others.iter().find(|(found, _)| found == name);
+    found.map(|(_, value)| *value)
+}
+
+fn normals(text: &mut String, measured: &Measured<'_>) {
+    let (Some(normals), Some(instructions)) =
+        (measured.inputs.normals, figure(measured, "normals"))
+    else {
+        return;
+    };
+    let rows = measured.inputs.rows.max(1) as f64;
+    let of_rows = |name: &str| 2.0 * figure(measured, name).unwrap_or(0) as f64 / rows;
+    let bytes = 2.0 * 2.2 * measured.inputs.taps as f64 / rows;
+    let _ = writeln!(
+        text,
+        "\n## Normals\n\n\
+         From the faces: {:.0} instructions a point ({instructions} a frame, {} corners of faces), unit length\n\
+         included, and {:.1} bytes a point. Two derivative rows a point would take as much as two more rows of\n\
+         the table before their cross product and its length: {:.0} instructions in Q14, {:.0} in the compact\n\
+         format, and some {bytes:.0} bytes.",
+        instructions as f64 / rows,
+        normals.corners,
+        normals.bytes as f64 / rows,
+        of_rows("q14"),
+        of_rows("compact"),
+    );
+}
+
+fn refine(text: &mut String, measured: &Measured<'_>) {
+    let _ = writeln!(
+        text,
+        "\n## Refinement on the device\n\n\
+         The finger's cage, {} tetrahedra, boundary by Loop's rule: numbering, cells and points of a level\n\
+         from those of the level before. Bytes are those of the arenas that the level is lent, scratch\n\
+         included.\n\n| level | instructions | arena bytes |\n| --- | --- | --- |",
+        measured.inputs.cells
+    );
+    for level in 1..=2 {
+        let of = |what: &str| figure(measured, &format!("refine {level} {what}"));
+        if let (Some(instructions), Some(bytes)) = (of("instructions"), of("bytes")) {
+            let _ = writeln!(text, "| {level} | {instructions} | {bytes} |");
+        }
     }
 }
 
