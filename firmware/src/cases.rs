@@ -49,6 +49,8 @@
 //! | [`SECTION_FACES`] | level, vertices, then number of elements and CRC-32 of the faces' offsets, their corners, creases and corners at that level, and 1 after an odd number of square-root-3 steps |
 //! | [`SECTION_LIMIT`] | level, coordinates saturated so far, x y z of each limit position of that level |
 //! | [`SECTION_TRIANGLE`] | generation, corners, neighbours, x y z of the corners and of their limits |
+//! | [`SECTION_MIXED_CELLS`] | level, vertices, then number of elements and CRC-32 of tetrahedra, octahedra, prisms, hexahedra, surface triangles, surface quadrilaterals, creases and corners at that level |
+//! | [`SECTION_BOUNDARY`] | number of elements and CRC-32 of the triangles, then of the quadrilaterals of a boundary |
 //! | [`SECTION_VOLUME`] | see [`volume`]; numbers of 64 bits have their low word first |
 //! | [`SECTION_NORMALS`] | how many are zero, x y z of the normal of each row |
 //! | [`SECTION_SCALARS`] | values saturated, the channels of each row |
@@ -58,6 +60,7 @@
 pub mod apply;
 pub mod box_spline;
 pub mod data;
+pub mod mixed;
 pub mod refine;
 mod results;
 pub mod scalars;
@@ -110,11 +113,14 @@ pub const SQRT3_STEPS: u32 = 8;
 pub const VOLUME: u32 = 9;
 /// Kind of a case: evaluate a volume's polynomial in modes.
 pub const VOLUME_MODES: u32 = 10;
+/// Kind of a case: refine a mixed solid in slices.
+pub const MIXED: u32 = 11;
+/// Kind of a case: refine a mixed solid in core's own arenas of a fixed size.
+pub const MIXED_OWNED: u32 = 12;
 /// Kind of a case: open a bundle and carry scalar channels through its table.
 pub const APPLY_SCALARS: u32 = 16;
 /// Kind of a case: refine channels and hand on labels of a solid in slices.
 pub const REFINE_DATA: u32 = 17;
-
 /// Kind of a case: apply a table again where control points moved, with factored tables and normals too.
 pub const UPDATE: u32 = 20;
 
@@ -138,6 +144,10 @@ pub const SECTION_LIMIT: u32 = 7;
 pub const SECTION_TRIANGLE: u32 = 8;
 /// Tag of a section with volumes and gradients.
 pub const SECTION_VOLUME: u32 = 9;
+/// Tag of a section about the cells of a mixed solid at a level.
+pub const SECTION_MIXED_CELLS: u32 = 10;
+/// Tag of a section about the boundary of a mixed solid.
+pub const SECTION_BOUNDARY: u32 = 11;
 /// Tag of a section with normals.
 pub const SECTION_NORMALS: u32 = 20;
 /// Tag of a section with channels of rows of a table.
@@ -163,6 +173,8 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         SQRT3_STEPS => sqrt3::run_steps(words, results),
         VOLUME => volume::run(words, memory.space(), results),
         VOLUME_MODES => volume::run_modes(words, memory.space(), results),
+        MIXED => mixed::run(words, memory, results),
+        MIXED_OWNED => mixed::run_owned(words, memory.space(), results),
         UPDATE => update::run(words, memory.space(), results),
         APPLY_SCALARS => scalars::run(words, memory.space(), results),
         REFINE_DATA => data::run(words, memory, results),

@@ -95,8 +95,8 @@ impl<'a> Space<'a> {
     }
 
     /// Lends a buffer of `count` elements, all `value`. If they do not fit, the error names
-    /// `arena`.
-    pub fn slice<T: Copy>(
+    /// `arena`. The elements are never dropped.
+    pub fn slice<T: Clone>(
         &mut self,
         arena: Arena,
         count: usize,
@@ -117,7 +117,7 @@ impl<'a> Space<'a> {
         let elements: &'a mut [MaybeUninit<T>] =
             unsafe { slice::from_raw_parts_mut(memory.as_mut_ptr().cast(), count) };
         for element in elements.iter_mut() {
-            element.write(value);
+            element.write(value.clone());
         }
         // SAFETY: every element was just written.
         Ok(unsafe { elements.assume_init_mut() })

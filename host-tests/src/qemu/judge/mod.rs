@@ -7,6 +7,7 @@
 mod apply;
 mod box_spline;
 mod data;
+mod mixed;
 mod scalars;
 mod sqrt3;
 mod surface;
@@ -59,6 +60,8 @@ pub enum Subject {
     Sqrt3Adaptive,
     /// Several square-root-3 steps at once
     Sqrt3Steps,
+    /// Mixed solids of tetrahedra, octahedra, prisms and hexahedra
+    Mixed,
     /// Volume forms and their gradients
     Volume,
     /// Volumes as polynomials in modes, and their derivatives
@@ -88,6 +91,7 @@ impl Subject {
             Subject::ButterflyModified => surface::case(Scheme::ButterflyModified, seed),
             Subject::Sqrt3Adaptive => sqrt3::adaptive(seed),
             Subject::Sqrt3Steps => sqrt3::steps(seed),
+            Subject::Mixed => mixed::case(seed),
             Subject::Volume => volume::form(seed),
             Subject::VolumeModes => volume::polynomial(seed),
             Subject::Update => update::case(seed),
