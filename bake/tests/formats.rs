@@ -292,17 +292,12 @@ fn medit_errors() {
         (
             "Tetrahedra\n2",
             "TetrahedraP2\n2",
-            "line 28: the mesh has 2 elements of second or higher order (TetrahedraP2); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: write the mesh at first order",
+            "line 28: the mesh has 2 elements of second or higher order (TetrahedraP2); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges\n  help: write the mesh at first order",
         ),
         (
             "Tetrahedra\n2",
             "Hexahedra\n2",
-            "line 28: the mesh has 2 hexahedra; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone",
-        ),
-        (
-            "Triangles\n1\n1 2 3 0\n",
-            "Prisms\n1\n1 2 3 4 5 6 0\nPyramids\n2\n1 2 3 4 5 0\n1 2 3 4 5 0\n",
-            "line 25: the mesh has 1 prism and 2 pyramids; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone",
+            "line 31: expected a vertex of a hexahedron, found \"End\"",
         ),
         (
             "End\n",
@@ -368,7 +363,7 @@ fn tetgen_errors_name_the_file() {
         (
             "2 4 1",
             "2 10 1",
-            "cage.ele, line 1: the mesh has 2 tetrahedra of second order (10 vertices each); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: run TetGen without -o2",
+            "cage.ele, line 1: the mesh has 2 tetrahedra of second order (10 vertices each); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges\n  help: run TetGen without -o2",
         ),
         (
             "2 4 1",
@@ -455,7 +450,7 @@ fn vtk_errors() {
         (
             "10\n42",
             "12\n42",
-            "line 17: the grid has 1 hexahedron, first cell 0 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
+            "line 17: cell 0 (counted from 0) is a hexahedron with 4 corners",
         ),
         (
             "4 3 4 5 6",

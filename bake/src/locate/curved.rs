@@ -2,8 +2,9 @@
 //!
 //! A prism is the image of a triangle times an interval, a hexahedron that of a cube, under the map
 //! that is linear along every edge: the weights of the corners are products of the affine
-//! coordinates of the factors.
+//! coordinates of the factors. What of a point's weights is wanted here is found by [`super::inverse`].
 
+use super::inverse::{Map, Parameters};
 use crate::geometry::tetrahedron_volume_6;
 use crate::mesh::{Point, Shape};
 
@@ -72,6 +73,135 @@ impl Hexahedron {
     pub fn is_sound(&self) -> bool {
         is_sound(&self.corners, &HEXAHEDRON_NEIGHBOURS)
     }
+}
+
+/// The parameters are two affine coordinates of the triangle, of the corners 1 and 2, and the
+/// height over it.
+impl Map<6> for Prism {
+    const CORNERS: [Parameters; 6] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 1.0],
+        [0.0, 1.0, 1.0],
+    ];
+
+    fn corners(&self) -> &[Point; 6] {
+        &self.corners
+    }
+
+    fn weights([r, s, t]: Parameters) -> [f64; 6] {
+        let low = [1.0 - r - s, r, s];
+        let [a, b, c] = low.map(|weight| weight * (1.0 - t));
+        let [d, e, f] = low.map(|weight| weight * t);
+        [a, b, c, d, e, f]
+    }
+
+    fn derivatives([r, s, t]: Parameters) -> [[f64; 6]; 3] {
+        let low = 1.0 - t;
+        let first = 1.0 - r - s;
+        [
+            [-low, low, 0.0, -t, t, 0.0],
+            [-low, 0.0, low, -t, 0.0, t],
+            [-first, -r, -s, first, r, s],
+        ]
+    }
+
+    fn clamped([r, s, t]: Parameters) -> Parameters {
+        let (r, s, t) = (r.max(0.0), s.max(0.0), t.clamp(0.0, 1.0));
+        let over = r + s - 1.0;
+        if over <= 0.0 {
+            return [r, s, t];
+        }
+        // The nearest point of the slanted edge.
+        let r = (r - over / 2.0).clamp(0.0, 1.0);
+        [r, 1.0 - r, t]
+    }
+
+    /// Four triangles, each at both heights.
+    fn parts(corners: &[Parameters; 6]) -> Vec<[Parameters; 6]> {
+        let [a, b, c, d, e, f] = *corners;
+        let layers = [
+            [a, b, c, middle(a, d), middle(b, e), middle(c, f)],
+            [middle(a, d), middle(b, e), middle(c, f), d, e, f],
+        ];
+        let four = |[a, b, c, d, e, f]: [Parameters; 6]| {
+            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            let (de, ef, fd) = (middle(d, e), middle(e, f), middle(f, d));
+            [
+                [a, ab, ca, d, de, fd],
+                [ab, b, bc, de, e, ef],
+                [ca, bc, c, fd, ef, f],
+                [ab, bc, ca, de, ef, fd],
+            ]
+        };
+        layers.into_iter().flat_map(four).collect()
+    }
+}
+
+/// The parameters are the coordinates in the unit cube whose corners are numbered alike.
+impl Map<8> for Hexahedron {
+    const CORNERS: [Parameters; 8] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [0.0, 1.0, 1.0],
+    ];
+
+    fn corners(&self) -> &[Point; 8] {
+        &self.corners
+    }
+
+    fn weights(at: Parameters) -> [f64; 8] {
+        Self::CORNERS.map(|corner| {
+            let factors = [0, 1, 2].map(|axis| factor(corner[axis], at[axis]));
+            factors.iter().product()
+        })
+    }
+
+    fn derivatives(at: Parameters) -> [[f64; 8]; 3] {
+        [0, 1, 2].map(|along| {
+            Self::CORNERS.map(|corner| {
+                let factors = [0, 1, 2].map(|axis| match axis == along {
+                    true => 2.0 * corner[axis] - 1.0,
+                    false => factor(corner[axis], at[axis]),
+                });
+                factors.iter().product()
+            })
+        })
+    }
+
+    fn clamped(at: Parameters) -> Parameters {
+        at.map(|coordinate| coordinate.clamp(0.0, 1.0))
+    }
+
+    /// Eight boxes.
+    fn parts(corners: &[Parameters; 8]) -> Vec<[Parameters; 8]> {
+        let centre = middle(corners[0], corners[6]);
+        let eighth = |own: Parameters| {
+            Self::CORNERS.map(|corner| {
+                [0, 1, 2].map(|axis| {
+                    let (low, high) = (own[axis].min(centre[axis]), own[axis].max(centre[axis]));
+                    if corner[axis] == 0.0 { low } else { high }
+                })
+            })
+        };
+        corners.iter().map(|own| eighth(*own)).collect()
+    }
+}
+
+/// The affine coordinate of the end 0 or 1 of the unit interval.
+fn factor(end: f64, at: f64) -> f64 {
+    if end == 0.0 { 1.0 - at } else { at }
+}
+
+fn middle(a: Parameters, b: Parameters) -> Parameters {
+    [0, 1, 2].map(|axis| f64::midpoint(a[axis], b[axis]))
 }
 
 /// What a bilinear face and a point enclose is the mean of what the two pairs of triangles enclose

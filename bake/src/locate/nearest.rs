@@ -1,64 +1,89 @@
 //! The nearest point of a boundary.
 
+use super::patch::Patch;
 use crate::geometry::{add_scaled, bounds, dot, length, subtract};
-use crate::mesh::Point;
+use crate::mesh::{Faces, Point};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 /// The point of the boundary that is nearest to some point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// The boundary triangle it lies on.
-    pub triangle: usize,
-    /// Weights of the triangle's corners: none negative, their sum one.
-    pub weights: [f64; 3],
+    /// The boundary face it lies on: triangles are counted first, then quadrilaterals.
+    pub face: usize,
+    /// Weights of the face's corners: none negative, their sum one. The fourth of a triangle is 0.
+    pub weights: [f64; 4],
     /// How far away it is.
     pub distance: f64,
 }
 
-impl Nearest {
-    /// The middle of the triangle.
-    pub(super) fn middle(&self, [a, b, c]: [Point; 3]) -> Point {
-        std::array::from_fn(|axis| {
-            let sum = a[axis] + b[axis] + c[axis];
-            let (low, high) = (
-                a[axis].min(b[axis]).min(c[axis]),
-                a[axis].max(b[axis]).max(c[axis]),
-            );
-            (sum / 3.0).clamp(low, high)
-        })
+/// The mean of a face's corners, inside their box.
+pub(super) fn middle(corners: &[Point]) -> Point {
+    let [low, high] = bounds(corners).unwrap_or_default();
+    std::array::from_fn(|axis| {
+        let sum: f64 = corners.iter().map(|corner| corner[axis]).sum();
+        (sum / corners.len() as f64).clamp(low[axis], high[axis])
+    })
+}
+
+/// A spatial index over boundary faces.
+pub(super) struct BoundaryIndex {
+    tree: RTree<Face>,
+}
+
+/// A face with its number.
+struct Face {
+    index: usize,
+    kind: Kind,
+}
+
+enum Kind {
+    Triangle(Triangle),
+    Quad(Patch),
+}
+
+impl Face {
+    /// The nearest point's weights and position.
+    fn nearest(&self, point: Point) -> ([f64; 4], Point) {
+        match &self.kind {
+            Kind::Triangle(triangle) => {
+                let [a, b, c] = triangle.nearest_weights(point);
+                ([a, b, c, 0.0], triangle.at([a, b, c]))
+            }
+            Kind::Quad(patch) => patch.nearest(point),
+        }
     }
 }
 
-/// A spatial index over boundary triangles.
-pub(super) struct BoundaryIndex {
-    tree: RTree<Triangle>,
-}
-
 impl BoundaryIndex {
-    pub(super) fn new(surface: &[[u32; 3]], points: &[Point]) -> Self {
-        let triangle = |(index, corners): (usize, &[u32; 3])| Triangle {
-            index,
-            corners: corners.map(|corner| points[corner as usize]),
-        };
+    pub(super) fn new(surface: &Faces, points: &[Point]) -> Self {
+        let position = |corner: u32| points[corner as usize];
+        let triangles = surface.triangles.iter().map(|corners| {
+            Kind::Triangle(Triangle {
+                corners: corners.map(position),
+            })
+        });
+        let quads = surface.quads.iter();
+        let quads = quads.map(|corners| Kind::Quad(Patch::new(corners.map(position))));
+        let faces = triangles.chain(quads).enumerate();
+        let faces = faces.map(|(index, kind)| Face { index, kind });
         Self {
-            tree: RTree::bulk_load(surface.iter().enumerate().map(triangle).collect()),
+            tree: RTree::bulk_load(faces.collect()),
         }
     }
 
     pub(super) fn nearest(&self, point: Point) -> Option<Nearest> {
-        let triangle = self.tree.nearest_neighbor(point)?;
-        let weights = triangle.nearest_weights(point);
+        let face = self.tree.nearest_neighbor(point)?;
+        let (weights, nearest) = face.nearest(point);
         Some(Nearest {
-            triangle: triangle.index,
+            face: face.index,
             weights,
-            distance: length(subtract(point, triangle.at(weights))),
+            distance: length(subtract(point, nearest)),
         })
     }
 }
 
 /// A triangle in space.
 struct Triangle {
-    index: usize,
     corners: [Point; 3],
 }
 
@@ -109,18 +134,23 @@ impl Triangle {
     }
 }
 
-impl RTreeObject for Triangle {
+impl RTreeObject for Face {
     type Envelope = AABB<Point>;
 
     fn envelope(&self) -> AABB<Point> {
-        let [low, high] = bounds(&self.corners).unwrap_or_default();
+        let corners: &[Point] = match &self.kind {
+            Kind::Triangle(triangle) => &triangle.corners,
+            Kind::Quad(patch) => patch.corners(),
+        };
+        let [low, high] = bounds(corners).unwrap_or_default();
         AABB::from_corners(low, high)
     }
 }
 
-impl PointDistance for Triangle {
+impl PointDistance for Face {
     fn distance_2(&self, point: &Point) -> f64 {
-        let offset = subtract(*point, self.at(self.nearest_weights(*point)));
+        let (_, nearest) = self.nearest(*point);
+        let offset = subtract(*point, nearest);
         dot(offset, offset)
     }
 }
@@ -132,15 +162,18 @@ mod tests {
     /// Nearest points of the triangle (0,0,0) (4,0,0) (0,4,0), by hand.
     #[test]
     fn nearest_point_of_a_triangle() {
-        let surface = [[0, 1, 2]];
+        let surface = Faces {
+            triangles: vec![[0, 1, 2]],
+            quads: vec![],
+        };
         let points = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
         let index = BoundaryIndex::new(&surface, &points);
         for (point, weights, distance) in [
-            ([1.0, 1.0, 2.0], [0.5, 0.25, 0.25], 2.0),
-            ([-3.0, -4.0, 0.0], [1.0, 0.0, 0.0], 5.0),
-            ([1.0, -2.0, 0.0], [0.75, 0.25, 0.0], 2.0),
-            ([4.0, 4.0, 0.0], [0.0, 0.5, 0.5], 8.0_f64.sqrt()),
-            ([0.0, 9.0, 0.0], [0.0, 0.0, 1.0], 5.0),
+            ([1.0, 1.0, 2.0], [0.5, 0.25, 0.25, 0.0], 2.0),
+            ([-3.0, -4.0, 0.0], [1.0, 0.0, 0.0, 0.0], 5.0),
+            ([1.0, -2.0, 0.0], [0.75, 0.25, 0.0, 0.0], 2.0),
+            ([4.0, 4.0, 0.0], [0.0, 0.5, 0.5, 0.0], 8.0_f64.sqrt()),
+            ([0.0, 9.0, 0.0], [0.0, 0.0, 1.0, 0.0], 5.0),
         ] {
             let nearest = index.nearest(point).unwrap();
             assert_eq!((nearest.weights, nearest.distance), (weights, distance));

@@ -1,6 +1,6 @@
 //! Feature files: creases, crease faces and corners for any mesh, one a line.
 //!
-//! `crease A B` makes the edge between two vertices a crease, `crease-face A B C` makes a face of a
+//! `crease A B` makes the edge between two vertices a crease, `crease-face A B C` or `crease-face A B C D` makes a face of a
 //! cell part of a crease surface inside the solid, `corner A` keeps a vertex in its place, `sheet A B C`
 //! adds a triangle that no cell has; vertices are counted from 0 in the mesh's file order. Empty
 //! lines and everything after `#` are skipped.
@@ -34,21 +34,24 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
             ["corner", a] => features.corners.push(vertex(a)?),
             ["crease-face", a, b, c] => {
                 features.faces.push(
-                    triangle([vertex(a)?, vertex(b)?, vertex(c)?], "crease face")
+                    distinct([vertex(a)?, vertex(b)?, vertex(c)?], "crease face")
                         .map_err(located)?,
                 );
             }
             ["sheet", a, b, c] => {
                 features.sheets.push(
-                    triangle([vertex(a)?, vertex(b)?, vertex(c)?], "sheet's triangle")
+                    distinct([vertex(a)?, vertex(b)?, vertex(c)?], "sheet's triangle")
                         .map_err(located)?,
                 );
             }
-            ["crease-face", _, _, _, _] => {
-                return Err(located(
-                    Error::new("the faces of tetrahedra and octahedra have three vertices, this crease face has four")
-                        .advise("give the triangles: crease-face A B C"),
-                ));
+            ["crease-face", a, b, c, d] => {
+                features.quads.push(
+                    distinct(
+                        [vertex(a)?, vertex(b)?, vertex(c)?, vertex(d)?],
+                        "crease face",
+                    )
+                    .map_err(located)?,
+                );
             }
             [word, ..] => {
                 return Err(located(Error::new(format!(
@@ -63,9 +66,10 @@ pub fn read(bytes: &[u8], vertices: usize) -> Result<Features> {
     Ok(features)
 }
 
-fn triangle(corners: [Vertex; 3], what: &str) -> Result<[Vertex; 3]> {
-    let [a, b, c] = corners;
-    if a == b || b == c || c == a {
+/// The corners, unless one is named twice.
+fn distinct<const N: usize>(corners: [Vertex; N], what: &str) -> Result<[Vertex; N]> {
+    let is_repeated = |place: usize| corners[..place].contains(&corners[place]);
+    if (1..N).any(is_repeated) {
         return Err(Error::new(format!("the {what} names a vertex twice")));
     }
     Ok(corners)

@@ -1,11 +1,12 @@
 //! Medit meshes (`.mesh`), ASCII.
 //!
-//! Tetrahedra make the cage, their references are its labels. Edges listed under `Ridges` become
+//! Tetrahedra, prisms (pentahedra), hexahedra and pyramids make the cage, their references are its labels. Edges listed under `Ridges` become
 //! crease edges, vertices under `Corners` corners. Other edges, triangles and quadrilaterals are
 //! counted and left out; other volume elements are errors. Sections that say nothing about the mesh
 //! itself (normals, tangents, what a remesher must keep) are skipped. MFEM's meshes, which have the
 //! same extension, are recognised and refused.
 
+use super::pyramids::{self, Pyramid};
 use super::words::{Words, shown};
 use crate::error::{Error, Result, count, listed};
 use crate::mesh::{SolidMesh, Vertex};
@@ -21,6 +22,7 @@ struct Sections {
     /// Elements that a cage cannot hold, section by section, with the line of the number.
     foreign: Vec<(String, usize)>,
     has_curved: bool,
+    pyramids: Vec<Pyramid>,
 }
 
 /// Reads a mesh from the bytes of a `.mesh` file.
@@ -85,7 +87,13 @@ fn header(words: &mut Words<'_>) -> Result<()> {
 fn section(words: &mut Words<'_>, keyword: &str, sections: &mut Sections) -> Result<()> {
     match keyword {
         "Vertices" => vertices(words, &mut sections.mesh),
-        "Tetrahedra" => tetrahedra(words, &mut sections.mesh),
+        "Tetrahedra" => {
+            for (corners, label) in cells(words, sections, ("tetrahedron", "tetrahedra"))? {
+                sections.mesh.cells.tetrahedra.push(corners);
+                sections.mesh.labels.tetrahedra.push(label);
+            }
+            Ok(())
+        }
         "Edges" => {
             for _ in 0..words.number::<u64>("the number of edges")? {
                 let edge = corners(words, sections.mesh.points.len(), "a vertex of an edge")?;
@@ -111,11 +119,26 @@ fn section(words: &mut Words<'_>, keyword: &str, sections: &mut Sections) -> Res
         }
         "Triangles" => left_out(words, 4, ("triangle", "triangles"), sections),
         "Quadrilaterals" => left_out(words, 5, ("quadrilateral", "quadrilaterals"), sections),
-        "Hexahedra" | "Hexaedra" => foreign(words, keyword, ("hexahedron", "hexahedra"), sections),
-        "Prisms" | "Pentahedra" | "Pentaedra" => {
-            foreign(words, keyword, ("prism", "prisms"), sections)
+        "Hexahedra" | "Hexaedra" => {
+            for (corners, label) in cells(words, sections, ("hexahedron", "hexahedra"))? {
+                sections.mesh.cells.hexahedra.push(corners);
+                sections.mesh.labels.hexahedra.push(label);
+            }
+            Ok(())
         }
-        "Pyramids" => foreign(words, keyword, ("pyramid", "pyramids"), sections),
+        "Prisms" | "Pentahedra" | "Pentaedra" => {
+            for (corners, label) in cells(words, sections, ("prism", "prisms"))? {
+                sections.mesh.cells.prisms.push(corners);
+                sections.mesh.labels.prisms.push(label);
+            }
+            Ok(())
+        }
+        "Pyramids" => {
+            let pyramids = cells(words, sections, ("pyramid", "pyramids"))?.into_iter();
+            let pyramid = |(corners, label)| Pyramid { corners, label };
+            sections.pyramids.extend(pyramids.map(pyramid));
+            Ok(())
+        }
         _ if ["P2", "P3", "P4", "Q2", "Q3", "Q4"]
             .iter()
             .any(|order| keyword.contains(order)) =>
@@ -149,14 +172,20 @@ fn vertices(words: &mut Words<'_>, mesh: &mut SolidMesh) -> Result<()> {
     Ok(())
 }
 
-fn tetrahedra(words: &mut Words<'_>, mesh: &mut SolidMesh) -> Result<()> {
-    for _ in 0..words.number::<u64>("the number of tetrahedra")? {
-        let cell = corners(words, mesh.points.len(), "a vertex of a tetrahedron")?;
-        mesh.cells.tetrahedra.push(cell);
-        let label = words.number("the reference of a tetrahedron")?;
-        mesh.labels.tetrahedra.push(label);
+/// A section of cells: their corners and references.
+fn cells<const N: usize>(
+    words: &mut Words<'_>,
+    sections: &Sections,
+    (singular, plural): (&str, &str),
+) -> Result<Vec<([Vertex; N], i32)>> {
+    let mut cells = Vec::new();
+    for _ in 0..words.number::<u64>(&format!("the number of {plural}"))? {
+        let vertices = sections.mesh.points.len();
+        let cell = corners(words, vertices, &format!("a vertex of a {singular}"))?;
+        let label = words.number(&format!("the reference of a {singular}"))?;
+        cells.push((cell, label));
     }
-    Ok(())
+    Ok(cells)
 }
 
 /// Vertices, which Medit counts from 1.
@@ -241,13 +270,14 @@ fn finish(sections: Sections) -> Result<SolidMesh> {
             false => "mesh the volume with tetrahedra alone",
         };
         return Err(Error::new(format!(
-            "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges",
+            "the mesh has {}; a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges",
             listed(&counted)
         ))
         .at_line(*line)
         .advise(advice));
     }
     let mut mesh = sections.mesh;
+    pyramids::add(&sections.pyramids, true, &mut mesh);
     for (edge, line) in &sections.ridges {
         let place = edge.checked_sub(1);
         let crease = place.and_then(|index| sections.edges.get(index));

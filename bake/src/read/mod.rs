@@ -18,6 +18,7 @@ pub mod obj_tags;
 pub mod off;
 pub mod ply;
 pub mod points;
+pub mod pyramids;
 pub mod stl;
 pub mod tetgen;
 pub mod vtk;

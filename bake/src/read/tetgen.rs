@@ -142,7 +142,7 @@ fn tetrahedra(bytes: &[u8], first: i64, mesh: &mut SolidMesh) -> Result<()> {
     let corners: u32 = header.number("the number of a tetrahedron's vertices, 4")?;
     if corners == 10 {
         return Err(header
-            .error(format!("the mesh has {} of second order (10 vertices each); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges", count(usize::try_from(number).unwrap_or(usize::MAX), "tetrahedron", "tetrahedra")))
+            .error(format!("the mesh has {} of second order (10 vertices each); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges", count(usize::try_from(number).unwrap_or(usize::MAX), "tetrahedron", "tetrahedra")))
             .advise("run TetGen without -o2"));
     }
     if corners != 4 {

@@ -158,9 +158,11 @@ fn mark<'a>(rows: impl Iterator<Item = &'a Row>, needed: &mut [bool]) {
 /// A product's entry is a sum of as many products as the row is long, so each level multiplies
 /// relative errors by at most `1 + (length + 20) 2^-53`, where 20 stands for the entry's own
 /// roundings (its division, or the cosine in an irrational surface weight); magnitudes grow by the
-/// rows' sums of magnitudes.
-pub fn composition_error(rows: &[Row], matrices: &[Vec<Row>]) -> f64 {
-    const ENTRY_ROUNDINGS: f64 = 20.0;
+/// rows' sums of magnitudes. Where the scheme mixed makes a row of rows that are not whole numbers
+/// (clones), each of up to `terms` terms of an entry is rounded, and clones and masks make their
+/// magnitudes less than four times as large as the row's.
+pub fn composition_error(rows: &[Row], matrices: &[Vec<Row>], terms: usize) -> f64 {
+    let entry_roundings = 20.0 + 4.0 * terms as f64;
     let (mut roundings, mut magnitude) = (0.0, 1.0);
     for matrix in matrices.iter().map(Vec::as_slice).chain([rows]) {
         let longest = matrix.iter().map(Vec::len).max().unwrap_or(0);
@@ -168,7 +170,7 @@ pub fn composition_error(rows: &[Row], matrices: &[Vec<Row>]) -> f64 {
             .iter()
             .map(|row| row.iter().map(|(_, weight)| weight.abs()).sum::<f64>())
             .fold(0.0, f64::max);
-        roundings += longest as f64 + ENTRY_ROUNDINGS;
+        roundings += longest as f64 + entry_roundings;
         magnitude *= largest;
     }
     // 2^-52 instead of 2^-53 covers the terms of second order and this function's own roundings.

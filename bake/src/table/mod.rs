@@ -148,7 +148,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         locate(&refined, model, options.outside, format, progress).map_err(of_model)?;
     progress.stage("composing rows", 1);
     let rows = compose(&embeddings, &refined.matrices, refined.control_points);
-    let composition = composition_error(&embeddings, &refined.matrices);
+    let composition = composition_error(&embeddings, &refined.matrices, refined.terms);
     progress.step();
     let quantised = quantise_all(&rows, progress).map_err(of_model)?;
 
@@ -296,6 +296,8 @@ struct Refined {
     /// One matrix for each level, the first level first.
     matrices: Vec<Vec<Row>>,
     control_points: u32,
+    /// Of how many rounded terms an entry of a matrix can be the sum; 0 but for the scheme mixed.
+    terms: usize,
 }
 
 impl Refined {
@@ -311,12 +313,16 @@ fn refine(cage: &SolidMesh, options: &Options, progress: &mut dyn Progress) -> R
     level.require_levels(options.levels)?;
     let control_points = level.vertex_count;
     let (mut points, mut matrices) = (cage.points.clone(), Vec::new());
+    let mut terms = 0;
     progress.stage("refining", options.levels as usize);
     for _ in 0..options.levels {
         let mut step = Refinement::new(&level, options.boundary.to_core())?;
         points = step.points(&points)?;
         matrices.push(step.values(&mut RowBlend, &identity(level.vertex_count))?);
         level = step.split()?;
+        if options.scheme == Scheme::Mixed {
+            terms = terms.max(CORNERS * most_cells_at_a_vertex(&level));
+        }
         progress.step();
     }
     Ok(Refined {
@@ -324,7 +330,19 @@ fn refine(cage: &SolidMesh, options: &Options, progress: &mut dyn Progress) -> R
         points,
         matrices,
         control_points,
+        terms,
     })
+}
+
+/// Every cell at a vertex weighs the clones of its parent's corners, which are eight at most.
+const CORNERS: usize = 8;
+
+fn most_cells_at_a_vertex(level: &Level) -> usize {
+    let mut cells = vec![0; level.vertex_count as usize];
+    for vertex in level.cells.corners().flatten() {
+        cells[*vertex as usize] += 1;
+    }
+    cells.into_iter().max().unwrap_or(0)
 }
 
 /// The points as weighted sums of refined vertices.
@@ -340,10 +358,11 @@ fn locate(
     let locator = Locator::new(&refined.last.cells, &skin, &refined.points);
     // There is no cell behind a sheet: what is beside it moves with its nearest point.
     let carried = |nearest: &Nearest, point: Point| {
-        if nearest.triangle < refined.last.boundary_count {
-            locator.extrapolated(nearest, point)
-        } else {
+        let of_sheets = refined.last.boundary_count..skin.triangles.len();
+        if of_sheets.contains(&nearest.face) {
             Some(locator.projected(nearest))
+        } else {
+            locator.extrapolated(nearest, point)
         }
     };
     let mut report = OutsideReport {

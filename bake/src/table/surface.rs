@@ -146,7 +146,7 @@ pub fn bake_surface(
         cage: &mesh.points,
         rest_cage: &rest_cage,
         rest_model: &rest_model,
-        composition: composition_error(&embeddings, &matrices),
+        composition: composition_error(&embeddings, &matrices, 0),
         random_poses: options.random_poses,
         seed: options.seed,
     };

@@ -17,7 +17,7 @@ fn wrong_element_types() {
                 "6\n1 15 2 7 4 40\n",
                 "9\n1 15 2 7 4 40\n7 6 0 1 2 3 4 5 6\n8 5 0 1 2 3 4 5 6 7 8\n9 6 0 1 2 3 4 5 6\n",
             ),
-            "cage.msh, line 24: the mesh has 1 hexahedron and 2 prisms; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)",
+            "cage.msh, line 24: an element names node 1, which the file does not list\n  help: the mesh is incomplete; write it again",
         ),
         cage(
             "second order",
@@ -27,7 +27,7 @@ fn wrong_element_types() {
                 "6 4 2 9 1 10 30 20 50",
                 "6 11 2 9 1 1 2 3 4 5 6 7 8 9 10",
             ),
-            "cage.msh, line 28: the mesh has 1 element of second or higher order (type 11); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh at first order: Mesh.ElementOrder = 1 in Gmsh, or `gmsh -order 1`",
+            "cage.msh, line 28: the mesh has 1 element of second or higher order (type 11); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges\n  help: mesh at first order: Mesh.ElementOrder = 1 in Gmsh, or `gmsh -order 1`",
         ),
         cage(
             "a surface alone",
@@ -47,19 +47,19 @@ fn wrong_element_types() {
             "hexahedra",
             "cage.vtu",
             with(&vtu, "10\n10\n", "12\n12\n"),
-            "cage.vtu, line 20: the grid has 2 hexahedra, first cell 0 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
+            "cage.vtu, line 20: cell 0 (counted from 0) is a hexahedron with 4 corners",
         ),
         cage(
             "second order",
             "cage.vtu",
             with(&vtu, "10\n10\n", "10\n24\n"),
-            "cage.vtu, line 20: the grid has 1 cell of second or higher order (type 24), first cell 1 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: write the mesh at first order",
+            "cage.vtu, line 20: the grid has 1 cell of second or higher order (type 24), first cell 1 (counted from 0); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges\n  help: write the mesh at first order",
         ),
         cage(
             "an unknown type",
             "cage.vtu",
             with(&vtu, "10\n10\n", "10\n99\n"),
-            "cage.vtu, line 20: the grid has 1 cell of an unknown type (type 99), first cell 1 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: a cage consists of tetrahedra (type 10) and octahedra (polyhedra, type 42)",
+            "cage.vtu, line 20: the grid has 1 cell of an unknown type (type 99), first cell 1 (counted from 0); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges\n  help: a cage consists of tetrahedra (type 10), wedges (13), hexahedra (12), pyramids (14) and octahedra (polyhedra, type 42)",
         ),
         cage(
             "triangles alone",
@@ -71,13 +71,13 @@ fn wrong_element_types() {
             "wedges",
             "cage.vtk",
             with(&vtk, "10\n10\n", "13\n13\n"),
-            "cage.vtk, line 14: the grid has 2 wedges (prisms), first cell 0 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
+            "cage.vtk, line 14: cell 0 (counted from 0) is a wedge with 4 corners",
         ),
         cage(
             "a voxel and a pyramid",
             "cage.vtk",
             with(&vtk, "10\n10\n", "11\n14\n"),
-            "cage.vtk, line 14: the grid has 1 voxel and 1 pyramid, first cell 0 (counted from 0); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra, or split these cells first (ParaView: filter \"Tetrahedralize\")",
+            "cage.vtk, line 14: cell 0 (counted from 0) is a voxel with 4 corners",
         ),
         cage(
             "hexahedra",
@@ -87,23 +87,23 @@ fn wrong_element_types() {
                 "Tetrahedra",
                 "Hexahedra\n1\n1 2 3 4 5 1 2 3 0\nTetrahedra",
             ),
-            "cage.mesh, line 20: the mesh has 1 hexahedron; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone",
+            "cage.mesh: hexahedron 0 (counted from 0 in file order) names vertex 0 twice\n  help: remove the degenerate cell",
         ),
         cage(
-            "prisms and pyramids",
+            "a prism",
             "cage.mesh",
             with(
                 MEDIT,
                 "Tetrahedra",
-                "Prisms\n2\n1 2 3 4 5 1 0\n1 2 3 4 5 1 0\nPyramids\n1\n1 2 3 4 5 0\nTetrahedra",
+                "Prisms\n1\n1 2 3 4 5 1 0\nTetrahedra",
             ),
-            "cage.mesh, line 20: the mesh has 2 prisms and 1 pyramid; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: mesh the volume with tetrahedra alone",
+            "cage.mesh: prism 0 (counted from 0 in file order) names vertex 0 twice\n  help: remove the degenerate cell",
         ),
         cage(
             "second order",
             "cage.mesh",
             with(MEDIT, "Tetrahedra\n2", "TetrahedraP2\n2"),
-            "cage.mesh, line 20: the mesh has 2 elements of second or higher order (TetrahedraP2); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: write the mesh at first order",
+            "cage.mesh, line 20: the mesh has 2 elements of second or higher order (TetrahedraP2); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges\n  help: write the mesh at first order",
         ),
         cage(
             "no tetrahedra",
@@ -115,7 +115,7 @@ fn wrong_element_types() {
             "second order",
             "cage.ele",
             with(ELE, "2 4 1", "2 10 1"),
-            "cage.ele, line 1: the mesh has 2 tetrahedra of second order (10 vertices each); a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges\n  help: run TetGen without -o2",
+            "cage.ele, line 1: the mesh has 2 tetrahedra of second order (10 vertices each); a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges\n  help: run TetGen without -o2",
         )
         .and("cage.node", NODE),
         cage("no tetrahedra", "cage.ele", "0 4 0\n", "cage.ele, line 1: the mesh has no tetrahedra").and("cage.node", NODE),
@@ -124,7 +124,7 @@ fn wrong_element_types() {
             "info @cage.vtu",
             "cage.vtu",
             tetrahedron_as_polyhedron(),
-            "cage.vtu, line 20: cell 1 (counted from 0) is a polyhedron with 4 corners and 4 faces; of polyhedra only octahedra (6 corners, 8 triangles) are read\n  help: a cage consists of tetrahedra (type 10) and octahedra (polyhedra, type 42)",
+            "cage.vtu, line 20: cell 1 (counted from 0) is a polyhedron with 4 corners and 4 faces; of polyhedra only octahedra (6 corners, 8 triangles) are read\n  help: a cage consists of tetrahedra (type 10), wedges (13), hexahedra (12), pyramids (14) and octahedra (polyhedra, type 42)",
         ),
         command(
             "a control mesh for a scheme of solids",

@@ -3,6 +3,7 @@
 use super::elements::{ElementType, ORDER_ADVICE};
 use crate::error::{Error, Place, Result, listed};
 use crate::mesh::{Point, SolidMesh, Vertex};
+use crate::read::pyramids::{self, Pyramid};
 use std::collections::{BTreeMap, HashMap};
 
 /// A physical group's dimension and number.
@@ -17,6 +18,7 @@ pub struct Builder {
     ignored: BTreeMap<ElementType, usize>,
     /// Elements that a cage cannot hold: how many, and where the first stands.
     foreign: BTreeMap<ElementType, (usize, Place)>,
+    pyramids: Vec<Pyramid>,
 }
 
 impl Builder {
@@ -58,6 +60,21 @@ impl Builder {
                 self.mesh.cells.tetrahedra.push(corners);
                 self.mesh.labels.tetrahedra.push(label(groups, place)?);
             }
+            (ElementType::Prism, nodes) => {
+                let corners = self.vertices(nodes, place)?;
+                self.mesh.cells.prisms.push(corners);
+                self.mesh.labels.prisms.push(label(groups, place)?);
+            }
+            (ElementType::Hexahedron, nodes) => {
+                let corners = self.vertices(nodes, place)?;
+                self.mesh.cells.hexahedra.push(corners);
+                self.mesh.labels.hexahedra.push(label(groups, place)?);
+            }
+            (ElementType::Pyramid, nodes) => {
+                let corners = self.vertices(nodes, place)?;
+                let label = label(groups, place)?;
+                self.pyramids.push(Pyramid { corners, label });
+            }
             (ElementType::Line, &[a, b]) if self.in_group(1, groups, "crease") => {
                 let edge = [self.vertex(a, place)?, self.vertex(b, place)?];
                 self.mesh.features.creases.push(edge);
@@ -82,11 +99,13 @@ impl Builder {
                 ];
                 self.mesh.features.sheets.push(triangle);
             }
-            (ElementType::Quadrangle, _)
-                if self.in_group(2, groups, "crease") || self.in_group(2, groups, "sheet") =>
-            {
+            (ElementType::Quadrangle, nodes) if self.in_group(2, groups, "crease") => {
+                let face = self.vertices(nodes, place)?;
+                self.mesh.features.quads.push(face);
+            }
+            (ElementType::Quadrangle, _) if self.in_group(2, groups, "sheet") => {
                 return Err(Error::new(
-                    "a physical surface whose name starts with \"crease\" or \"sheet\" holds this quadrangle; the faces of a cage's cells are triangles",
+                    "a physical surface whose name starts with \"sheet\" holds this quadrangle; sheets consist of triangles",
                 )
                 .at(place)
                 .advise("mesh the surface with triangles, or rename the group"));
@@ -95,6 +114,14 @@ impl Builder {
             _ => *self.ignored.entry(kind).or_default() += 1,
         }
         Ok(())
+    }
+
+    fn vertices<const N: usize>(&self, tags: &[u64], place: Place) -> Result<[Vertex; N]> {
+        let mut vertices = [0; N];
+        for (vertex, tag) in vertices.iter_mut().zip(tags) {
+            *vertex = self.vertex(*tag, place)?;
+        }
+        Ok(vertices)
     }
 
     fn vertex(&self, tag: u64, place: Place) -> Result<Vertex> {
@@ -125,17 +152,16 @@ impl Builder {
             let is_curved = |kind: &ElementType| matches!(kind, ElementType::Curved(_));
             let advice = match self.foreign.keys().any(is_curved) {
                 true => ORDER_ADVICE,
-                false => {
-                    "mesh the volume with tetrahedra alone (no transfinite, recombined or extruded layers)"
-                }
+                false => "mesh the volume with tetrahedra, prisms, pyramids and hexahedra",
             };
             return Err(Error::new(format!(
-                "the mesh has {}; a cage of the scheme tet-oct consists of tetrahedra and octahedra with straight edges",
+                "the mesh has {}; a cage consists of tetrahedra, octahedra, prisms and hexahedra with straight edges",
                 listed(&counted)
             ))
             .at(*place)
             .advise(advice));
         }
+        pyramids::add(&self.pyramids, true, &mut self.mesh);
         if self.mesh.cells.is_empty() {
             return Err(Error::new("the mesh has no tetrahedra").advise(
                 "mesh in three dimensions (`gmsh -3`), and if there are physical groups, put the volume into one: Gmsh then saves only what is in a group",

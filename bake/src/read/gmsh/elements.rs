@@ -113,10 +113,7 @@ impl ElementType {
 
     /// Whether a cage cannot hold it and must not lose it: a volume that is no tetrahedron, or anything curved.
     pub fn is_foreign(self) -> bool {
-        matches!(
-            self,
-            Self::Hexahedron | Self::Prism | Self::Pyramid | Self::Curved(_)
-        )
+        matches!(self, Self::Curved(_))
     }
 
     /// So many elements of this type, for messages.

@@ -72,6 +72,8 @@ pub fn add_labels(arrays: &[DataArray], kept: &[Kept], mesh: &mut SolidMesh) -> 
     if values.len() != kept.len() {
         return Err(wrong_length(name, kept.len(), "cells", values.len()));
     }
+    // Their tetrahedra are behind all others.
+    let mut of_pyramids = Vec::new();
     for (cell, (value, kept)) in values.iter().zip(kept).enumerate() {
         let label = i32::try_from(*value).map_err(|_| {
             Error::new(format!(
@@ -81,9 +83,13 @@ pub fn add_labels(arrays: &[DataArray], kept: &[Kept], mesh: &mut SolidMesh) -> 
         match kept {
             Kept::Tetrahedron => mesh.labels.tetrahedra.push(label?),
             Kept::Octahedron => mesh.labels.octahedra.push(label?),
+            Kept::Prism => mesh.labels.prisms.push(label?),
+            Kept::Hexahedron => mesh.labels.hexahedra.push(label?),
+            Kept::Pyramid => of_pyramids.extend([label?; 2]),
             Kept::LeftOut => {}
         }
     }
+    mesh.labels.tetrahedra.extend(of_pyramids);
     mesh.labels.drop_if_zero();
     Ok(())
 }
