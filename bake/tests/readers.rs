@@ -157,8 +157,8 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
         (
             TWO_TETRAHEDRA_2,
             "0 7 \"Corner top\"",
-            "2 7 \"crease skin\"",
-            "line 26: a physical surface whose name starts with \"crease\" or \"sheet\" holds this quadrangle; the faces of a cage's cells are triangles\n  help: mesh the surface with triangles, or rename the group",
+            "2 7 \"sheet skin\"",
+            "line 26: a physical surface whose name starts with \"sheet\" holds this quadrangle; sheets consist of triangles\n  help: mesh the surface with triangles, or rename the group",
         ),
         (
             TWO_TETRAHEDRA_2,

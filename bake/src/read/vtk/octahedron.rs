@@ -52,7 +52,7 @@ fn not_an_octahedron(corners: usize, faces: usize) -> Error {
     Error::new(format!(
         "is a polyhedron with {corners} corners and {faces} faces; of polyhedra only octahedra (6 corners, 8 triangles) are read"
     ))
-    .advise("a cage consists of tetrahedra (type 10) and octahedra (polyhedra, type 42)")
+    .advise("a cage consists of tetrahedra (type 10), wedges (13), hexahedra (12), pyramids (14) and octahedra (polyhedra, type 42)")
 }
 
 /// The faces as places in `corners`, each with its least place first.
