@@ -197,7 +197,7 @@ fn gmsh_errors_name_the_line_and_what_to_do() {
             "line 18: the mesh is partitioned\n  help: join the parts before saving: Mesh > Unpartition in Gmsh",
         ),
     ] {
-        let text = if to.contains("crease skin") {
+        let text = if to.contains("sheet skin") {
             text.replace("4 2 2 0 1 10 20 30", "4 3 2 7 1 10 20 30 40")
         } else {
             text.to_owned()
