@@ -228,6 +228,8 @@ pub fn bench() -> Result<(), Failure> {
         "rivals",
         "--bin",
         "refine",
+        "--bin",
+        "volume",
     ];
     Program::cargo()
         .args(build)
@@ -248,6 +250,8 @@ pub fn bench() -> Result<(), Failure> {
         CAGE,
         "--model",
         MODEL,
+        "--motion",
+        MOTION,
         "--output",
         "docs/performance.md",
         "--directory",

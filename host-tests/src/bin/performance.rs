@@ -1,5 +1,5 @@
 //! Measures the apply beside its rivals and writes `docs/performance.md`. `cargo xtask bench` calls it; it
-//! expects the image `rivals` to be built.
+//! expects the images `rivals`, `refine` and `volume` to be built.
 
 use std::fs;
 use std::hint::black_box;
@@ -15,6 +15,7 @@ use octruss_host_tests::performance::cycles::{
 };
 use octruss_host_tests::performance::input::{Failure, Inputs, make};
 use octruss_host_tests::performance::page::{Line, Measured, page};
+use octruss_host_tests::performance::volume;
 use octruss_host_tests::qemu::{Machine, Run, image};
 
 /// The shift of the instruction clock at which counts are exact.
@@ -35,6 +36,9 @@ struct Arguments {
     /// The model
     #[arg(long)]
     model: PathBuf,
+    /// A motion of its control points, whose frames are the modes of the enclosed volume
+    #[arg(long)]
+    motion: PathBuf,
     /// The page to write
     #[arg(long)]
     output: PathBuf,
@@ -53,8 +57,19 @@ fn main() -> ExitCode {
 
 fn measure(arguments: &Arguments) -> Result<bool, Failure> {
     let inputs = make(&arguments.directory, &arguments.cage, &arguments.model)?;
+    let enclosed = volume::make(
+        &arguments.directory,
+        &arguments.cage,
+        &arguments.model,
+        &arguments.motion,
+    )?;
     let run = || -> Result<Figures, Failure> {
-        Ok([figures(arguments, "rivals")?, figures(arguments, "refine")?].concat())
+        let images = ["rivals", "refine", "volume"];
+        let all: Result<Vec<_>, _> = images
+            .map(|name| figures(arguments, name))
+            .into_iter()
+            .collect();
+        Ok(all?.concat())
     };
     let first = run()?;
     let is_repeatable = run()? == first;
@@ -95,7 +110,8 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
         others: first.clone(),
         is_repeatable,
     };
-    let text = page(&measured);
+    let mut text = page(&measured);
+    text += &volume::section(&enclosed, &first)?;
     println!("{text}");
     fs::write(&arguments.output, text)?;
     Ok(is_repeatable)

@@ -2,8 +2,9 @@
 //! would write instead, on the same rows.
 //!
 //! [`input`] makes the files that the image `rivals` reads, [`cycles`] asks `llvm-mca` about the hot loops,
-//! [`page`] writes the tables.
+//! [`page`] writes the tables; [`volume`] does all of it for the enclosed volume.
 
 pub mod cycles;
 pub mod input;
 pub mod page;
+pub mod volume;
