@@ -3,8 +3,10 @@
 
 Needs Python 3.9 or newer and Gmsh 4 (`pip install gmsh`). It writes beside itself:
 
-    finger.msh         the cage from finger.geo, Gmsh MSH 4.1, ASCII
+    finger.msh         the cage of tetrahedra from finger.geo, Gmsh MSH 4.1, ASCII
     finger-22.msh      the same cage, Gmsh MSH 2.2, ASCII
+    finger-mixed.msh   the same control points with hexahedra, prisms and tetrahedra, Gmsh MSH 4.1, ASCII
+    finger-mixed-22.msh  the same cage, Gmsh MSH 2.2, ASCII
     finger.obj         the skin, quadrilaterals with texture coordinates and groups
     finger-motion.csv  all control points for each frame of a motion
 
@@ -255,7 +257,8 @@ def number(value):
 
 
 def make_cage():
-    """Meshes finger.geo and writes both files; returns control points and tetrahedra (from 0)."""
+    """Meshes finger.geo and writes all four files; returns control points, tetrahedra and the mixed cage's
+    cells by Gmsh's type (from 0)."""
     try:
         import gmsh
     except ImportError:
@@ -270,14 +273,24 @@ def make_cage():
         gmsh.open(str(FOLDER / "finger.geo"))
         gmsh.model.mesh.generate(3)
         points, cells = read_cage(gmsh.model.mesh)
-        for version, name in ((4.1, "finger.msh"), (2.2, "finger-22.msh")):
-            gmsh.option.setNumber("Mesh.MshFileVersion", version)
-            part = FOLDER / f"part-of-{name}"
-            gmsh.write(str(part))
-            os.replace(part, FOLDER / name)
+        write_versions(gmsh, "finger")
+        wedges = read_wedges(gmsh.model.mesh)
+        mixed = mix(wedges)
+        add_mixed_model(gmsh, points, mixed)
+        write_versions(gmsh, "finger-mixed")
     finally:
         gmsh.finalize()
-    return points, cells
+    return points, cells, mixed
+
+
+def write_versions(gmsh, name):
+    """Writes Gmsh's current model in both versions of its format."""
+    for version, suffix in ((4.1, ""), (2.2, "-22")):
+        gmsh.option.setNumber("Mesh.MshFileVersion", version)
+        path = FOLDER / f"{name}{suffix}.msh"
+        part = FOLDER / f"part-of-{path.name}"
+        gmsh.write(str(part))
+        os.replace(part, path)
 
 
 def read_cage(mesh):
@@ -294,6 +307,85 @@ def read_cage(mesh):
     if min(signed_volume(points, cell) for cell in cells) <= 0.0:
         raise SystemExit("finger.geo gave a tetrahedron of negative orientation")
     return points, cells
+
+
+def read_wedges(mesh):
+    """The tetrahedra (from 0) of the wedge j (1 to 8) above ring i, by (i, j)."""
+    wedges = {}
+    for i in range(RINGS - 1):
+        for j in range(1, 9):
+            _, _, corners = mesh.getElements(3, 10 * i + j)
+            flat = [int(tag) - 1 for tag in corners[0]]
+            wedges[i, j] = [tuple(flat[k:k + 4]) for k in range(0, len(flat), 4)]
+    return wedges
+
+
+# The mixed cage --------------------------------------------------------------------------------
+#
+# The same control points. A quarter of a layer between two rings is one hexahedron, or two prisms (its
+# wedges), or the six tetrahedra that Gmsh makes of these. Row by row from the base, for the quarters
+# (-x, -y), (+x, -y), (+x, +y), (-x, +y): the body is regular, the bellows' side is of prisms, the tip is
+# filled with tetrahedra, and all pairs of shapes touch.
+
+RINGS = 8
+LAYERS = ("hhhh", "hhhh", "pphh", "pphh", "ppph", "pptt", "tttt")
+HEXAHEDRON, PRISM, TETRAHEDRON = 5, 6, 4  # Gmsh's numbers of element types
+
+
+def mix(wedges):
+    """The cells of the mixed cage: lists of corners (from 0) by Gmsh's type."""
+    cells = {HEXAHEDRON: [], PRISM: [], TETRAHEDRON: []}
+    for i, layer in enumerate(LAYERS):
+        below, above = 9 * i, 9 * i + 9
+        for quarter, shape in enumerate(layer):
+            corner = 2 * quarter
+            before, after = (corner - 1) % 8, corner + 1
+            if shape == "h":
+                ring = (8, before, corner, after)
+                cells[HEXAHEDRON].append([below + j for j in ring] + [above + j for j in ring])
+            for j in (before, corner):
+                triangle = (8, j, (j + 1) % 8)
+                if shape == "p":
+                    cells[PRISM].append([below + k for k in triangle] + [above + k for k in triangle])
+                elif shape == "t":
+                    cells[TETRAHEDRON] += wedges[i, j + 1]
+    return cells
+
+
+def add_mixed_model(gmsh, points, cells):
+    """Makes a second model of Gmsh's, of discrete entities: node k + 1 is control point k again, and the
+    groups have the names that finger.geo gives."""
+    gmsh.model.add("finger-mixed")
+    mesh = gmsh.model.mesh
+    volume = gmsh.model.addDiscreteEntity(3)
+    tags = list(range(1, len(points) + 1))
+    mesh.addNodes(3, volume, tags, [coordinate for point in points for coordinate in point])
+    for kind, corners in cells.items():
+        mesh.addElementsByType(volume, kind, [], [c + 1 for cell in corners for c in cell])
+    gmsh.model.addPhysicalGroup(3, [volume], 1, "finger")
+    for number, name, first in ((2, "crease base", 1), (3, "crease tip", 9 * RINGS - 8)):
+        curve = gmsh.model.addDiscreteEntity(1)
+        sides = [first + (j + k) % 8 for j in range(8) for k in (0, 1)]
+        mesh.addElementsByType(curve, 1, [], sides)
+        gmsh.model.addPhysicalGroup(1, [curve], number, name)
+    corners = gmsh.model.addDiscreteEntity(0)
+    mesh.addElementsByType(corners, 15, [], [1, 3, 5, 7])
+    gmsh.model.addPhysicalGroup(0, [corners], 4, "corner base")
+
+
+def corner_volumes(points, kind, cell):
+    """Six times the volumes of the tetrahedra at the corners of a cell, of either of both turns: all are
+    positive if the cell is not inside out anywhere near a corner."""
+    if kind == TETRAHEDRON:
+        return [signed_volume(points, cell)]
+    half = len(cell) // 2
+    found = []
+    for j in range(half):
+        here, after, before = cell[j], cell[(j + 1) % half], cell[j - 1]
+        found.append(signed_volume(points, (here, after, before, cell[half + j])))
+        here, after, before = (cell[half + k] for k in (j, (j + 1) % half, (j - 1) % half))
+        found.append(signed_volume(points, (here, before, after, cell[j])))
+    return found
 
 
 def signed_volume(points, cell):
@@ -350,13 +442,16 @@ def moved(point, bend, twist, squeeze):
             BEND_FOOT + length * forward - beyond * math.sin(angle))
 
 
-def write_motion(points, cells, path):
+def write_motion(points, cells, mixed, path):
     """Writes all control points for each frame, after a check that no cell turns inside out."""
     lines = ["frame,point,x,y,z"]
     for frame in range(FRAMES):
         pose = [moved(point, *amounts(frame)) for point in points]
         if min(signed_volume(pose, cell) for cell in cells) <= 0.0:
             raise SystemExit(f"a tetrahedron of the cage turns inside out in frame {frame}")
+        for kind, corners in mixed.items():
+            if min(min(corner_volumes(pose, kind, cell)) for cell in corners) <= 0.0:
+                raise SystemExit(f"a cell of the mixed cage turns inside out in frame {frame}")
         if frame in (0, FRAMES - 1):
             pose = points
         lines += [f"{frame},{i}," + ",".join(number(c) for c in p) for i, p in enumerate(pose)]
@@ -365,12 +460,14 @@ def write_motion(points, cells, path):
 
 def main():
     """Writes all files and says what they hold."""
-    points, cells = make_cage()
+    points, cells, mixed = make_cage()
     skin = make_skin()
     write_skin(skin, FOLDER / "finger.obj")
-    write_motion(points, cells, FOLDER / "finger-motion.csv")
+    write_motion(points, cells, mixed, FOLDER / "finger-motion.csv")
     faces = sum(len(group) for group in skin.groups.values())
     print(f"cage: {len(points)} control points, {len(cells)} tetrahedra")
+    print(f"mixed cage: {len(mixed[HEXAHEDRON])} hexahedra, {len(mixed[PRISM])} prisms, "
+          f"{len(mixed[TETRAHEDRON])} tetrahedra")
     print(f"skin: {len(skin.positions)} vertices, {faces} quadrilaterals")
     print(f"motion: {FRAMES} frames")
 

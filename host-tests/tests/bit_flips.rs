@@ -11,6 +11,7 @@ use std::thread;
 use octruss::bundle::{Bundle, Header, Section};
 use octruss_bake::progress::Silent;
 use octruss_bake::read;
+use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::table::{Input, Options, Region, Request, TableFormat, bake};
 use octruss_host_tests::random_bundle::{BundleCase, layout};
 use zerocopy::IntoBytes;
@@ -74,26 +75,41 @@ fn accepted(bundle: &Aligned, bits: Range<usize>) -> Vec<usize> {
     })
 }
 
-/// The finger as `cargo xtask demo` bakes it, or in another format.
-fn finger(levels: u32, format: Option<TableFormat>, volumes: &[Region]) -> Aligned {
-    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models");
-    let (cage_file, model_file) = (models.join("finger.msh"), models.join("finger.obj"));
-    let cage = read::solid(&cage_file).expect("the example's cage");
-    let model = read::model(&model_file).expect("the example's model");
-    // Some hundred points do for a small bundle.
-    let points = match levels {
-        2 => model.points,
-        _ => model.points.into_iter().step_by(40).collect(),
-    };
+/// The finger as `cargo xtask demo` bakes it.
+fn demo() -> Aligned {
     let options = Options {
-        levels,
-        unit: "mm".to_owned(),
+        scheme: Scheme::Mixed,
+        boundary: BoundaryRule::TriQuad,
+        levels: 2,
+        ..Options::default()
+    };
+    finger("finger-mixed.msh", options, 1)
+}
+
+/// A small bundle of the finger of tetrahedra: some hundred points, refined once.
+fn small(format: Option<TableFormat>, volumes: &[Region]) -> Aligned {
+    let options = Options {
+        levels: 1,
         volumes: volumes.to_vec(),
         request: Request {
             format,
             ..Request::default()
         },
         ..Options::default()
+    };
+    finger("finger.msh", options, 40)
+}
+
+/// A finger, with every so many-th point of its model.
+fn finger(cage: &str, options: Options, step: usize) -> Aligned {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models");
+    let (cage_file, model_file) = (models.join(cage), models.join("finger.obj"));
+    let cage = read::solid(&cage_file).expect("the example's cage");
+    let model = read::model(&model_file).expect("the example's model");
+    let points: Vec<_> = model.points.into_iter().step_by(step).collect();
+    let options = Options {
+        unit: "mm".to_owned(),
+        ..options
     };
     let input = Input {
         cage: &cage,
@@ -131,7 +147,7 @@ fn every_bit_of_header_and_section_table_counts() {
         (Some(TableFormat::CompactFactored), &[Region::Whole]),
     ];
     for (format, volumes) in formats {
-        let bundle = finger(1, format, volumes);
+        let bundle = small(format, volumes);
         let opened = Bundle::new_checked(&bundle.words.as_bytes()[..bundle.length]);
         let sections = opened.expect("a sound bundle").header().sections.get() as usize;
         let bytes = size_of::<Header>() + sections * size_of::<Section>();
@@ -144,9 +160,9 @@ fn every_bit_of_header_and_section_table_counts() {
 }
 
 #[test]
-#[ignore = "four million bundles of half a megabyte: part of cargo xtask verify"]
+#[ignore = "almost six million bundles of two thirds of a megabyte: part of cargo xtask verify"]
 fn every_bit_of_the_demo_counts() {
-    let bundle = finger(2, None, &[]);
+    let bundle = demo();
     let bits = bundle.bits();
     let accepted = accepted(&bundle, bits.clone());
     println!(

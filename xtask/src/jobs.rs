@@ -9,8 +9,11 @@ use crate::setup::{self, Need};
 use crate::steps::Steps;
 use crate::workspace::{self, CORE_TARGETS, IMAGE_TARGET, IMAGE_TARGET_WITHOUT_DSP};
 
-/// The example that `demo` plays.
-const CAGE: &str = "models/finger.msh";
+/// The example that `demo` plays: hexahedra, prisms and tetrahedra.
+const CAGE: &str = "models/finger-mixed.msh";
+const SCHEME: &str = "mixed";
+/// What `bench` measures: the same control points and model, tetrahedra alone.
+const BENCH_CAGE: &str = "models/finger.msh";
 const MODEL: &str = "models/finger.obj";
 const MOTION: &str = "models/finger-motion.csv";
 const LEVELS: &str = "2";
@@ -247,7 +250,7 @@ pub fn bench() -> Result<(), Failure> {
         "performance",
         "--",
         "--cage",
-        CAGE,
+        BENCH_CAGE,
         "--model",
         MODEL,
         "--motion",
@@ -328,7 +331,7 @@ fn bake_example() -> Result<(), Failure> {
         Program::cargo().args(run)
     };
     octruss()
-        .args(["bake", CAGE, "--model", MODEL, "--scheme", "tet-oct"])
+        .args(["bake", CAGE, "--model", MODEL, "--scheme", SCHEME])
         .args(["--levels", LEVELS, "--unit", UNIT, "--output"])
         .args([&bundle])
         .run()?;
