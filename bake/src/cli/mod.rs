@@ -3,6 +3,7 @@
 mod any_scheme;
 mod bake;
 mod bake_surface;
+mod checkerboard;
 mod deform;
 mod forms;
 mod info;
@@ -44,6 +45,7 @@ enum Command {
     Deform(deform::Arguments),
     Locate(locate::Arguments),
     Slice(slice::Arguments),
+    Checkerboard(checkerboard::Arguments),
     Poses(poses::Arguments),
     Volume(volume::Arguments),
     Forms(forms::Arguments),
@@ -58,6 +60,7 @@ pub fn run() -> ExitCode {
         Command::Deform(arguments) => deform::run(&arguments),
         Command::Locate(arguments) => locate::run(&arguments),
         Command::Slice(arguments) => slice::run(&arguments),
+        Command::Checkerboard(arguments) => checkerboard::run(&arguments),
         Command::Poses(arguments) => poses::run(&arguments),
         Command::Volume(arguments) => volume::run(&arguments),
         Command::Forms(arguments) => forms::run(&arguments),

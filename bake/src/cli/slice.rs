@@ -269,7 +269,7 @@ fn figures(
 }
 
 /// So many numbers parted by commas.
-fn numbers<const N: usize>(text: &str) -> std::result::Result<[f64; N], String> {
+pub(super) fn numbers<const N: usize>(text: &str) -> std::result::Result<[f64; N], String> {
     let words = text.split(',').map(|word| word.trim().parse::<f64>());
     let numbers: Vec<f64> = words
         .collect::<std::result::Result<_, _>>()

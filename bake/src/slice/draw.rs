@@ -1,7 +1,7 @@
 //! The picture: density, lines of equal value, and a plot along a line, side by side.
 
-use super::Cut;
 use super::isolines::isoline;
+use super::{Checkerboard, Cut, Plane, Window};
 use crate::error::{Error, Result};
 use epaint_default_fonts::UBUNTU_LIGHT;
 use plotters::coord::Shift;
@@ -25,6 +25,8 @@ pub enum Panel<'a> {
     Isolines(usize, &'a Cut),
     /// Values along a line.
     Plot(Profile),
+    /// The colours that a deformed solid's places came from, with a title.
+    Checkerboard(String, &'a Checkerboard),
 }
 
 /// Panels side by side before the next row begins.
@@ -81,6 +83,7 @@ pub fn draw(picture: &Picture<'_>) -> Result<Vec<u8>> {
 fn range(panels: &[Panel<'_>]) -> Result<[f64; 2]> {
     let ranges = panels.iter().filter_map(|panel| match panel {
         Panel::Density(_, cut) | Panel::Isolines(_, cut) => cut.range(),
+        Panel::Checkerboard(_, board) => (board.inside() > 0).then_some([0.0, 1.0]),
         Panel::Plot(_) => None,
     });
     let both = |[low, high]: [f64; 2], [a, b]: [f64; 2]| [low.min(a), high.max(b)];
@@ -107,6 +110,7 @@ fn paint(
             Panel::Density(title, cut) => density(title, cut, range, part)?,
             Panel::Isolines(count, cut) => isolines(*count, cut, range, part)?,
             Panel::Plot(profile) => plot(profile, part)?,
+            Panel::Checkerboard(title, board) => checkerboard(title, board, part)?,
         }
     }
     root.present()?;
@@ -127,39 +131,83 @@ fn caption(title: &str, [low, high]: [f64; 2]) -> String {
 }
 
 fn density(title: &str, cut: &Cut, range: [f64; 2], area: &Area<'_>) -> Drawn {
-    let [u, v] = cut.start;
+    let window = Window {
+        start: cut.start,
+        side: cut.side,
+    };
+    let title = caption(title, range);
+    let mut chart = raster(&title, cut.plane, window, cut.size, area, |place| {
+        let value = cut.values[place]?;
+        Some(ViridisRGB.get_color(fraction(value, range)))
+    })?;
+    for segment in cut.sheets() {
+        let colour = ViridisRGB.get_color(fraction(segment.value, range));
+        chart.draw_series(std::iter::once(path(segment.ends, colour.stroke_width(5))))?;
+    }
+    Ok(())
+}
+
+fn checkerboard(title: &str, board: &Checkerboard, area: &Area<'_>) -> Drawn {
+    raster(
+        title,
+        board.plane,
+        board.window,
+        board.size,
+        area,
+        |place| {
+            Some(match board.dark[place]? {
+                true => RGBColor(36, 62, 99),
+                false => RGBColor(240, 206, 160),
+            })
+        },
+    )?;
+    Ok(())
+}
+
+type Chart<'a> = ChartContext<
+    'a,
+    BitMapBackend<'a>,
+    Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
+>;
+
+/// A chart of a square part of a plane, each pixel in the colour of the nearest of `size` by `size`
+/// places, which are numbered row by row from below.
+fn raster<'a>(
+    title: &str,
+    plane: Plane,
+    window: Window,
+    size: usize,
+    area: &Area<'a>,
+    colour: impl Fn(usize) -> Option<RGBColor>,
+) -> std::result::Result<Chart<'a>, Box<dyn std::error::Error>> {
+    let ([u, v], side) = (window.start, window.side);
     let mut chart = ChartBuilder::on(area)
-        .caption(caption(title, range), ("sans-serif", 18))
+        .caption(title, ("sans-serif", 18))
         .margin(12)
         .x_label_area_size(36)
         .y_label_area_size(52)
-        .build_cartesian_2d(u..u + cut.side, v..v + cut.side)?;
+        .build_cartesian_2d(u..u + side, v..v + side)?;
     chart
         .configure_mesh()
         .disable_mesh()
-        .x_desc(cut.plane.names[0])
-        .y_desc(cut.plane.names[1])
+        .x_desc(plane.names[0])
+        .y_desc(plane.names[1])
         .draw()?;
     let plotting = chart.plotting_area().strip_coord_spec();
     let (width, height) = plotting.dim_in_pixel();
     for down in 0..height {
         for along in 0..width {
             let nearest = |place: u32, of: u32| {
-                (place as usize * (cut.size - 1) + of as usize / 2) / (of as usize - 1).max(1)
+                (place as usize * (size - 1) + of as usize / 2) / (of as usize - 1).max(1)
             };
-            let row = cut.size - 1 - nearest(down, height).min(cut.size - 1);
-            let column = nearest(along, width).min(cut.size - 1);
-            if let Some(value) = cut.values[row * cut.size + column] {
-                let colour = ViridisRGB.get_color(fraction(value, range));
+            let row = size - 1 - nearest(down, height).min(size - 1);
+            let column = nearest(along, width).min(size - 1);
+            if let Some(colour) = colour(row * size + column) {
                 plotting.draw_pixel((along as i32, down as i32), &colour)?;
             }
         }
     }
-    for segment in cut.sheets() {
-        let colour = ViridisRGB.get_color(fraction(segment.value, range));
-        chart.draw_series(std::iter::once(path(segment.ends, colour.stroke_width(5))))?;
-    }
-    Ok(())
+    Ok(chart)
 }
 
 /// A line from one place of the plane to another.

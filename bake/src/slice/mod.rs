@@ -4,10 +4,12 @@
 //! basis function) is refined by the masks that refine positions. Between the vertices of the last
 //! level it is interpolated linearly, cell by cell.
 
+mod checkerboard;
 mod draw;
 mod isolines;
 mod over_time;
 
+pub use checkerboard::{Checkerboard, Deformed, Window};
 pub use draw::{Panel, Picture, Profile, draw};
 pub use over_time::{Moment, Places, over_time};
 
@@ -171,19 +173,10 @@ impl Field {
     /// # Errors
     /// If the plane misses the solid.
     pub fn cut(&self, plane: Plane, size: usize, progress: &mut dyn Progress) -> Result<Cut> {
-        let of_cut = |corners: &&[u32]| {
-            let heights = corners
-                .iter()
-                .map(|v| plane.height(self.points[*v as usize]));
-            let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), height| {
-                (low.min(height), high.max(height))
-            });
-            low <= 0.0 && high >= 0.0
-        };
-        let corners = self.level.cells.corners().filter(of_cut).flatten();
+        let corners = corners_cut(&self.level, &self.points, plane);
         let places: Vec<Point> = corners
             .map(|vertex| {
-                let [u, v] = plane.coordinates(self.points[*vertex as usize]);
+                let [u, v] = plane.coordinates(self.points[vertex as usize]);
                 [u, v, 0.0]
             })
             .collect();
@@ -259,6 +252,22 @@ impl Field {
             })
             .collect()
     }
+}
+
+/// The corners of all cells that a plane cuts or touches.
+fn corners_cut<'a>(
+    level: &'a Level,
+    points: &'a [Point],
+    plane: Plane,
+) -> impl Iterator<Item = u32> + 'a {
+    let of_cut = move |corners: &&[u32]| {
+        let heights = corners.iter().map(|v| plane.height(points[*v as usize]));
+        let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), height| {
+            (low.min(height), high.max(height))
+        });
+        low <= 0.0 && high >= 0.0
+    };
+    level.cells.corners().filter(of_cut).flatten().copied()
 }
 
 /// The point at `place` of `count` points that part a segment evenly.
