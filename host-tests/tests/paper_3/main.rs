@@ -8,5 +8,6 @@ mod grids;
 mod masks;
 mod precision;
 mod reductions;
+mod smoothness;
 mod spectrum;
 mod surface;

@@ -8,7 +8,7 @@ use octruss_host_tests::reference_mixed::Boundary;
 use super::grids::{Grid, PAIRS, Position, Side};
 
 /// The monomials of degree up to 2 by their exponents.
-const MONOMIALS: [[usize; 3]; 10] = [
+pub const MONOMIALS: [[usize; 3]; 10] = [
     [0, 0, 0],
     [1, 0, 0],
     [0, 1, 0],
@@ -34,7 +34,7 @@ fn correction(monomial: [usize; 3], [xx, xy, yy, zz]: &[BigRational; 4]) -> BigR
 }
 
 /// H below, on and above the boundary, where it is the mean of both.
-fn operator(grid: &Grid, layer: i32) -> [BigRational; 4] {
+pub fn operator(grid: &Grid, layer: i32) -> [BigRational; 4] {
     let (below, above) = (
         grid.below.quasi_interpolant(),
         grid.above.quasi_interpolant(),
@@ -48,7 +48,7 @@ fn operator(grid: &Grid, layer: i32) -> [BigRational; 4] {
 
 /// The values of all monomials' quasi-interpolants at a point; on the grid of half the spacing the
 /// derivatives of p(x/2) are a quarter.
-fn values(position: &Position, operator: &[BigRational; 4], spacing: &BigRational) -> Row {
+pub fn values(position: &Position, operator: &[BigRational; 4], spacing: &BigRational) -> Row {
     let mut row = Row::new();
     for (place, monomial) in (0..).zip(MONOMIALS) {
         let mut value = ratio(1, 1);
