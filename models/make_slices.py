@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Makes the cages and channels that the cross-sections in models/README.md are drawn of.
+"""Makes the cages, channels and poses that the cross-sections in models/README.md are drawn of.
 
 Only the standard library is needed. Every file is the same on every run.
 """
 
+import itertools
 import math
 from pathlib import Path
 
@@ -19,6 +20,17 @@ def write_mesh(name, points, tetrahedra):
         if volume(*(points[v] for v in cell)) < 0:
             cell = (cell[1], cell[0], cell[2], cell[3])
         lines.append(f"{i + 1} 4 2 1 1 " + " ".join(str(v + 1) for v in cell))
+    lines += ["$EndElements", ""]
+    (FOLDER / name).write_text("\n".join(lines))
+
+
+def write_mixed_mesh(name, points, cells):
+    """Writes a Gmsh 2.2 file of cells as (Gmsh's number of the shape, corners)."""
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(points))]
+    lines += [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(points)]
+    lines += ["$EndNodes", "$Elements", str(len(cells))]
+    for i, (shape, cell) in enumerate(cells):
+        lines.append(f"{i + 1} {shape} 2 1 1 " + " ".join(str(v + 1) for v in cell))
     lines += ["$EndElements", ""]
     (FOLDER / name).write_text("\n".join(lines))
 
@@ -163,6 +175,64 @@ def skirt():
     write_channel("skirt-height.txt", [p[2] for p in points])
 
 
+def block():
+    """A block of hexahedra, prisms and tetrahedra, all pairs of which touch, with sharp edges; and a
+    pose in which the middle is turned. The control points outside stay."""
+    columns, layers = 4, 2
+    # From above, row by row: hexahedron, prisms with triangles above and below, tetrahedra.
+    pattern = ["HPTT", "PHTP", "TTHP", "PTPH"]
+    at = lambda x, y, z: (z * (layers + 1) + y) * (columns + 1) + x
+    grid = range(columns + 1)
+    points = [(float(x), float(y), float(z)) for z in grid for y in range(layers + 1) for x in grid]
+    hexahedra, prisms, tetrahedra = [], [], []
+    for z in range(columns):
+        for y in range(layers):
+            for x in range(columns):
+                corner = lambda i, j, k: at(x + i, y + j, z + k)
+                shape = pattern[columns - 1 - z][x]
+                if shape == "H":
+                    ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
+                    hexahedra.append([corner(i, j, k) for k in (0, 1) for i, j in ring])
+                elif shape == "P":
+                    for ring in [[(0, 0), (1, 1), (1, 0)], [(0, 0), (0, 1), (1, 1)]]:
+                        prisms.append([corner(i, j, k) for j in (0, 1) for i, k in ring])
+                else:
+                    # Six round the diagonal, one for each order of the axes.
+                    for a, b in itertools.permutations(range(3), 2):
+                        steps = [[0, 0, 0], [0, 0, 0], [0, 0, 0], [1, 1, 1]]
+                        steps[1][a] = 1
+                        steps[2][a] = steps[2][b] = 1
+                        cell = [corner(*step) for step in steps]
+                        if volume(*(points[v] for v in cell)) < 0:
+                            cell[0], cell[1] = cell[1], cell[0]
+                        tetrahedra.append(cell)
+    cells = [(5, cell) for cell in hexahedra] + [(6, cell) for cell in prisms]
+    cells += [(4, cell) for cell in tetrahedra]
+    write_mixed_mesh("block.msh", points, cells)
+
+    size = (columns, layers, columns)
+    ends = lambda p: sum(p[k] in (0.0, float(size[k])) for k in range(3))
+    lines = [f"corner {v}" for v, p in enumerate(points) if ends(p) == 3]
+    for v, p in enumerate(points):
+        for step in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
+            q = tuple(p[k] + step[k] for k in range(3))
+            middle = tuple(p[k] + step[k] / 2 for k in range(3))
+            if q in points and ends(middle) == 2:
+                lines.append(f"crease {v} {points.index(q)}")
+    (FOLDER / "block-features.txt").write_text("\n".join(lines) + "\n")
+
+    angle = math.radians(30.0)
+    middle = columns / 2
+    posed = []
+    for x, y, z in points:
+        if ends((x, y, z)) == 0:
+            x, z = x - middle, z - middle
+            x, z = x * math.cos(angle) - z * math.sin(angle), x * math.sin(angle) + z * math.cos(angle)
+            x, z = middle + round(x, 6), middle + round(z, 6)
+        posed.append((x, y, z))
+    write_mixed_mesh("block-turned.msh", posed, cells)
+
+
 if __name__ == "__main__":
     FOLDER.mkdir(exist_ok=True)
     skirt()
@@ -170,3 +240,4 @@ if __name__ == "__main__":
     two_tetrahedra()
     cylinder()
     panel()
+    block()

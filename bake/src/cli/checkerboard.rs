@@ -12,9 +12,9 @@ use octruss_bake::{check, read, write};
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Draws a cross-section of a posed cage, filled at rest with cubes of two colours
+/// Draws a cross-section of a posed cage, filled at rest with columns of two colours
 ///
-/// The left half shows the smooth map, of the cage refined so many times; the right one the map that
+/// The columns are square and stand on the plane. The left half shows the smooth map, of the cage refined so many times; the right one the map that
 /// is linear in the tetrahedra, and bilinear or trilinear in the other cells, of the cage itself. Where a
 /// map is smooth, so are the edges of the squares; where it is not, they have corners.
 #[derive(clap::Args)]
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// The plane a x + b y + c z = d through the posed solid: four numbers parted by commas
     #[arg(long, value_name = "A,B,C,D", value_parser = super::slice::numbers::<4>, allow_hyphen_values = true)]
     plane: [f64; 4],
-    /// Length of a cube's edge, in the cage's unit; by default a sixteenth of the cut's width or height
+    /// Width of a column, in the cage's unit; by default a sixteenth of the cut's width or height
     #[arg(long, value_name = "LENGTH")]
     square: Option<f64>,
     /// The subdivision scheme

@@ -1,8 +1,10 @@
 //! A checkerboard that moves with a solid: what a deformation does inside, to the eye.
 //!
-//! Space at rest is filled with cubes of two colours. A place of the deformed solid has the colour of
-//! the place that it came from: where the map is smooth, so are the edges of the squares, and where it
-//! is only linear from cell to cell, they have corners (Hakenberg, figure 4.9).
+//! Space at rest is filled with square columns of two colours that stand on the plane. A place of the
+//! deformed solid has the colour of the place that it came from: where the map is smooth, so are the
+//! edges of the squares, and where it is only linear from cell to cell, they have corners (Hakenberg,
+//! figure 4.9). Columns, not cubes: a pose that moves places through the plane would change the colours
+//! of cubes, and show where places came from across the plane, which the eye cannot tell from a corner.
 
 use super::{Plane, corners_cut};
 use crate::error::{Error, Result};
@@ -36,7 +38,7 @@ pub struct Checkerboard {
     pub plane: Plane,
     pub(super) size: usize,
     pub(super) window: Window,
-    /// Whether the place came from a dark cube; `None` outside the solid.
+    /// Whether the place came from a dark column; `None` outside the solid.
     pub(super) dark: Vec<Option<bool>>,
 }
 
@@ -108,7 +110,7 @@ impl Deformed {
         })
     }
 
-    /// The colours on a window of `size` by `size` places, of cubes with edges of length `edge`.
+    /// The colours on a window of `size` by `size` places, of columns of width `edge`.
     pub fn checkerboard(
         &self,
         plane: Plane,
@@ -135,7 +137,7 @@ impl Deformed {
                             *sum += weight * coordinate;
                         }
                     }
-                    is_dark(from, edge)
+                    is_dark(plane.coordinates(from), edge)
                 }));
             }
             progress.step();
@@ -156,10 +158,11 @@ impl Checkerboard {
     }
 }
 
-/// Whether a place lies in a dark cube: the one from the origin along the axes is.
-fn is_dark(place: Point, edge: f64) -> bool {
-    let cubes: f64 = place.iter().map(|x| (x / edge).floor()).sum();
-    cubes.rem_euclid(2.0) < 0.5
+/// Whether a place, in the plane's coordinates, lies in a dark column: the one from the origin along
+/// both axes is.
+fn is_dark(place: [f64; 2], edge: f64) -> bool {
+    let columns: f64 = place.iter().map(|x| (x / edge).floor()).sum();
+    columns.rem_euclid(2.0) < 0.5
 }
 
 #[cfg(test)]
@@ -167,18 +170,18 @@ mod tests {
     use super::is_dark;
 
     #[test]
-    fn neighbouring_cubes_differ() {
-        for [x, y, z] in [[0.5, 0.5, 0.5], [-7.5, 3.5, 20.5], [4.5, -0.5, -1.5]] {
-            let colour = is_dark([x, y, z], 1.0);
-            for k in 0..3 {
-                let mut next = [x, y, z];
+    fn neighbouring_columns_differ() {
+        for [u, v] in [[0.5, 0.5], [-7.5, 3.5], [4.5, -1.5]] {
+            let colour = is_dark([u, v], 1.0);
+            for k in 0..2 {
+                let mut next = [u, v];
                 next[k] += 1.0;
                 assert_ne!(is_dark(next, 1.0), colour);
                 next[k] += 1.0;
                 assert_eq!(is_dark(next, 1.0), colour);
             }
         }
-        assert!(is_dark([0.1, 0.1, 0.1], 0.25));
-        assert!(!is_dark([0.3, 0.1, 0.1], 0.25));
+        assert!(is_dark([0.1, 0.1], 0.25));
+        assert!(!is_dark([0.3, 0.1], 0.25));
     }
 }
