@@ -18,8 +18,8 @@
 //!   vertices), [`surface`] (weights of surface schemes) and [`solid`] (subdivision of solids:
 //!   [`solid::tet_oct`], [`solid::box_spline`], [`solid::mixed`]).
 //! * **Right wing, run**: [`bundle`] (a validated view of the baked bytes in flash) and
-//!   [`deform`] (the table and its apply kernel), and [`enclosed`] (the volume inside a smooth
-//!   boundary, and its gradient).
+//!   [`deform`] (the table and its apply kernel), [`enclosed`] (the volume inside a smooth
+//!   boundary, and its gradient), and [`control`] (from goals to a pose under constraints).
 //!
 //! All logic works on slices and views that the caller owns. Types with const generics, built on
 //! `heapless`, exist for convenience only: [`mesh::SolidArena`], [`solid::tet_oct::Scratch`].
@@ -43,6 +43,7 @@
 
 pub mod blend;
 pub mod bundle;
+pub mod control;
 pub mod coord;
 pub mod deform;
 pub mod enclosed;

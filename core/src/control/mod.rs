@@ -1,0 +1,10 @@
+//! Control: from goals to a pose, under constraints that always hold.
+//!
+//! Every part has its configuration in flash, borrowed from a bundle, and its state in the caller's
+//! memory. A call ends after a bounded number of steps, respects the hard limits (bounds, rates)
+//! whatever it is asked for, and says what it had to give up.
+//!
+//! * [`inverse`]: amplitudes of a few actuation modes that bring points of the model to their goals while the
+//!   enclosed volume is held; or, the other way round, the amplitudes that measured points tell of.
+
+pub mod inverse;
