@@ -16,6 +16,8 @@ pub enum Shape {
     Polygons,
     /// Triangles.
     Triangles,
+    /// Triangles and quads.
+    TrianglesAndQuads,
 }
 
 /// What a random mesh may have.
@@ -47,6 +49,9 @@ impl SurfaceCase {
         let mut mesh = base(&mut rng, wishes.shape);
         for _ in 0..rng.random_range(0..6) {
             grow(&mut rng, &mut mesh, wishes.shape);
+        }
+        if wishes.shape == Shape::TrianglesAndQuads {
+            cut_polygons(&mut rng, &mut mesh);
         }
         if wishes.open && rng.random_range(0..3) > 0 {
             for _ in 0..rng.random_range(1..4) {
@@ -87,7 +92,7 @@ fn base(rng: &mut ChaCha8Rng, shape: Shape) -> Polygons {
     let n: u32 = rng.random_range(3..10);
     let next = |i: u32| (i + 1) % n;
     let mut mesh = match (shape, rng.random_range(0..3)) {
-        (Shape::Polygons, 0) => Polygons {
+        (Shape::Polygons | Shape::TrianglesAndQuads, 0) => Polygons {
             vertex_count: 2 * n,
             faces: (0..n)
                 .map(|i| vec![i, next(i), n + next(i), n + i])
@@ -95,7 +100,7 @@ fn base(rng: &mut ChaCha8Rng, shape: Shape) -> Polygons {
                 .collect(),
             ..Polygons::default()
         },
-        (Shape::Polygons, 1) => Polygons {
+        (Shape::Polygons | Shape::TrianglesAndQuads, 1) => Polygons {
             vertex_count: n + 1,
             faces: (0..n)
                 .map(|i| vec![i, next(i), n])
@@ -121,9 +126,9 @@ fn base(rng: &mut ChaCha8Rng, shape: Shape) -> Polygons {
 fn grow(rng: &mut ChaCha8Rng, mesh: &mut Polygons, shape: Shape) {
     match (shape, rng.random_range(0..3)) {
         (_, 0) => star(rng, mesh),
-        (Shape::Polygons, 1) => merge(rng, mesh),
-        (Shape::Polygons, _) => cut(rng, mesh),
         (Shape::Triangles, _) => flip(rng, mesh),
+        (_, 1) => merge(rng, mesh),
+        (_, _) => cut(rng, mesh),
     }
 }
 
@@ -152,6 +157,27 @@ fn cut(rng: &mut ChaCha8Rng, mesh: &mut Polygons) {
     let mut rest = face[end..].to_vec();
     rest.push(face[0]);
     mesh.faces.push(rest);
+}
+
+/// Cuts every polygon of more than four corners into triangles and quads at a new vertex.
+fn cut_polygons(rng: &mut ChaCha8Rng, mesh: &mut Polygons) {
+    for face in std::mem::take(&mut mesh.faces) {
+        let count = face.len();
+        if count <= 4 {
+            mesh.faces.push(face);
+            continue;
+        }
+        let mut start = 0;
+        while start < count {
+            let takes_two = start + 2 <= count && rng.random_range(0..2) == 0;
+            let end = start + 1 + usize::from(takes_two);
+            let mut part: Vec<u32> = (start..=end).map(|i| face[i % count]).collect();
+            part.push(mesh.vertex_count);
+            mesh.faces.push(part);
+            start = end;
+        }
+        mesh.vertex_count += 1;
+    }
 }
 
 /// Two faces and their common edge, if they have nothing else in common.

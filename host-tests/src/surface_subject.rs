@@ -1,13 +1,13 @@
 //! The crate under test on the host, over any value type, with buffers that are exactly as long as
 //! it says it needs.
 
-use octruss::blend::{Blend, FixedBlend};
+use octruss::blend::{Blend, FixedBlend, GuardedBlend};
 use octruss::mesh::{
     ControlMesh, ControlMeshBuffers, FaceOrder, Fans, MeshError, Side, SurfaceEdges,
 };
 use octruss::surface::{
     LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark,
-    doo_sabin, loop_scheme, sqrt3,
+    doo_sabin, loop_scheme, sqrt3, tri_quad,
 };
 
 use crate::reference_surface::{Border, Family, Polygons};
@@ -243,6 +243,34 @@ pub fn refine<B: Blend>(
             Ok((polygons(&next), memory.out))
         }
     }
+}
+
+/// One level of the scheme of triangles and quads, of any value type.
+pub fn refine_tri_quad<B: GuardedBlend>(
+    blend: &mut B,
+    border: Border,
+    mesh: &Polygons,
+    points: &[B::Point],
+) -> Result<(Polygons, Vec<B::Point>), MeshError> {
+    let lists = Lists::of(mesh);
+    let mesh = lists.mesh();
+    let mut sides = vec![Side::default(); mesh.indices.len()];
+    let edges = SurfaceEdges::new(&mesh, &mut sides)?;
+    let mut order = vec![0; mesh.face_count()];
+    let order = FaceOrder::new(&mesh, &mut order)?;
+    let counts = tri_quad::split_counts(&mesh, &edges).ok_or(MeshError::TooLarge)?;
+    let mut refined = Lists::of_counts(&counts);
+    let next = tri_quad::split(&mesh, &edges, &order, refined.buffers())?;
+    let zero = blend.zero();
+    let mut out = vec![blend.divide(&zero, 1); counts.vertices];
+    let buffers = tri_quad::PointBuffers {
+        out: &mut out,
+        sums: &mut vec![blend.guarded_zero(); counts.vertices],
+        states: &mut vec![VertexState::default(); counts.vertices],
+        distortions: &mut vec![tri_quad::VertexDistortion::new(zero); points.len()],
+    };
+    tri_quad::refine_points(blend, &mesh, &edges, &order, rim(border), points, buffers)?;
+    Ok((polygons(&next), out))
 }
 
 /// One level in raw bits; saturated coordinates are clamped.

@@ -10,9 +10,11 @@ use octruss::mesh::MeshError;
 use octruss_host_tests::random_surface::{Shape, SurfaceCase, Wishes};
 use octruss_host_tests::reference_surface::{
     Border, Family, Grid, Polygons, Refined, Row, apply, butterfly, catmull_clark,
-    catmull_clark_limit, doo_sabin, loop_limit, loop_rule, sqrt3, sqrt3_limit,
+    catmull_clark_limit, doo_sabin, loop_limit, loop_rule, sqrt3, sqrt3_limit, tri_quad,
 };
-use octruss_host_tests::surface_subject::{AdaptiveMemory, Scheme, limit, refine_bits};
+use octruss_host_tests::surface_subject::{
+    AdaptiveMemory, Scheme, limit, refine_bits, refine_tri_quad,
+};
 
 fn case_count() -> u64 {
     let wanted = std::env::var("OCTRUSS_CASES").ok();
@@ -134,6 +136,34 @@ fn doo_sabin_equals_the_reference() {
         }
     }
     assert!(compared > case_count());
+}
+
+/// Closed and open meshes with creases, darts and corners, edges of three faces.
+#[test]
+fn tri_quad_equals_the_reference() {
+    let mut mixed = 0;
+    for seed in 0..case_count() {
+        let SurfaceCase {
+            mut mesh,
+            mut points,
+        } = SurfaceCase::new(seed, wishes(Shape::TrianglesAndQuads));
+        let border = BORDERS[(seed % 3) as usize];
+        for level in 0..1 + seed % 3 {
+            let count = |corners: usize| mesh.faces.iter().filter(|f| f.len() == corners).count();
+            mixed += u64::from(count(3) > 0 && count(4) > 0);
+            let want = tri_quad(&mesh, border);
+            let mut blend = FixedBlend::<i32, 3>::new();
+            let (got, got_points) = refine_tri_quad(&mut blend, border, &mesh, &points)
+                .unwrap_or_else(|error| panic!("seed {seed}, level {level}: {error}"));
+            assert_eq!(got, want.mesh, "seed {seed}, level {level}");
+            let wanted = want.points(&points);
+            assert_eq!(got_points, wanted, "seed {seed}, level {level}");
+            let clamped = want.count_saturated(&points);
+            assert_eq!(blend.saturated() as usize, clamped, "seed {seed}");
+            (mesh, points) = (got, got_points);
+        }
+    }
+    assert!(mixed > case_count() / 2, "{mixed}");
 }
 
 #[test]

@@ -2,14 +2,14 @@
 
 use super::{RimRule, SurfaceMesh, SurfaceScheme};
 use crate::error::{Error, Result};
-use octruss::blend::Blend;
+use octruss::blend::{Blend, GuardedBlend};
 use octruss::mesh::{
     ControlMesh, ControlMeshBuffers, FaceOrder, Fans, MeshError, Part, Side, SurfaceEdges,
 };
 use octruss::surface::butterfly::Variant;
 use octruss::surface::{
-    PointBuffers, SurfaceCounts, VertexState, butterfly, catmull_clark, doo_sabin, loop_scheme,
-    sqrt3,
+    PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark, doo_sabin, loop_scheme,
+    sqrt3, tri_quad,
 };
 
 /// Connectivity of a surface at one level, owned.
@@ -169,6 +169,9 @@ impl<'a> SurfaceStep<'a> {
             Numbers::Edges(edges, _) if scheme == SurfaceScheme::CatmullClark => {
                 catmull_clark::split_counts(&mesh, edges)
             }
+            Numbers::Edges(edges, _) if scheme == SurfaceScheme::TriQuad => {
+                tri_quad::split_counts(&mesh, edges)
+            }
             Numbers::Edges(edges, _) => loop_scheme::split_counts(&mesh, edges),
             Numbers::Fans(fans) => doo_sabin::split_counts(fans),
             Numbers::Sqrt3(numbering) => sqrt3::split_counts(&mesh, numbering),
@@ -178,6 +181,9 @@ impl<'a> SurfaceStep<'a> {
         let view = match &numbers {
             Numbers::Edges(edges, order) if scheme == SurfaceScheme::CatmullClark => {
                 catmull_clark::split(&mesh, edges, order, next.buffers())
+            }
+            Numbers::Edges(edges, order) if scheme == SurfaceScheme::TriQuad => {
+                tri_quad::split(&mesh, edges, order, next.buffers())
             }
             Numbers::Edges(edges, _) => loop_scheme::split(&mesh, edges, next.buffers()),
             Numbers::Fans(fans) => doo_sabin::split(fans, next.buffers()),
@@ -196,13 +202,16 @@ impl<'a> SurfaceStep<'a> {
     ///
     /// # Errors
     /// If the scheme does not take the mesh.
-    pub fn values<B: Blend>(
+    pub fn values<B: GuardedBlend>(
         &mut self,
         blend: &mut B,
         values: &[B::Point],
     ) -> Result<Vec<B::Point>> {
         let (mesh, scheme, rim) = (self.from, self.scheme, self.rim.to_core());
         let numbers = self.numbers().map_err(complaint)?;
+        if let (SurfaceScheme::TriQuad, Numbers::Edges(edges, order)) = (scheme, &numbers) {
+            return tri_quad_values(blend, &mesh, edges, order, rim, values).map_err(complaint);
+        }
         let length = match &numbers {
             Numbers::Edges(edges, _) if scheme == SurfaceScheme::CatmullClark => {
                 mesh.vertex_count as usize + edges.count() as usize + mesh.face_count()
@@ -242,9 +251,15 @@ impl<'a> SurfaceStep<'a> {
     ///
     /// # Errors
     /// If the scheme does not take the mesh, or has no limit mask on it; Doo-Sabin's limit points
-    /// belong to faces, not to vertices.
+    /// belong to faces, not to vertices, and `tri-quad` has no limit masks.
     pub fn limit<B: Blend>(&mut self, blend: &mut B, values: &[B::Point]) -> Result<Vec<B::Point>> {
         let (mesh, scheme, rim) = (self.from, self.scheme, self.rim.to_core());
+        if scheme == SurfaceScheme::TriQuad {
+            return Err(Error::new(
+                "surfaces of triangles and quads together (tri-quad) have no limit masks",
+            )
+            .advise("leave --limit out and take a level more, or take catmull-clark or loop"));
+        }
         let numbers = self.numbers().map_err(complaint)?;
         let vertices = mesh.vertex_count as usize;
         let mut buffers = Buffers::new(blend, vertices + mesh.indices.len());
@@ -275,6 +290,29 @@ impl<'a> SurfaceStep<'a> {
         buffers.out.truncate(vertices);
         Ok(buffers.out)
     }
+}
+
+/// The values at the next level's vertices of the scheme of triangles and quads, whose sums have
+/// guard bits.
+fn tri_quad_values<B: GuardedBlend>(
+    blend: &mut B,
+    mesh: &ControlMesh<'_>,
+    edges: &SurfaceEdges<'_>,
+    order: &FaceOrder<'_>,
+    rim: Rim,
+    values: &[B::Point],
+) -> std::result::Result<Vec<B::Point>, MeshError> {
+    let counts = tri_quad::split_counts(mesh, edges).ok_or(MeshError::TooLarge)?;
+    let (zero, vertices) = (blend.zero(), counts.vertices);
+    let mut out = vec![blend.divide(&zero, 1); vertices];
+    let buffers = tri_quad::PointBuffers {
+        out: &mut out,
+        sums: &mut vec![blend.guarded_zero(); vertices],
+        states: &mut vec![VertexState::default(); vertices],
+        distortions: &mut vec![tri_quad::VertexDistortion::new(zero); mesh.vertex_count as usize],
+    };
+    tri_quad::refine_points(blend, mesh, edges, order, rim, values, buffers)?;
+    Ok(out)
 }
 
 /// Output and scratch of a step.

@@ -53,6 +53,8 @@ pub enum SurfaceScheme {
     Butterfly,
     /// The modified butterfly of 1996
     ButterflyModified,
+    /// Schaefer and Warren's surfaces of triangles and quads together
+    TriQuad,
 }
 
 impl SurfaceScheme {
@@ -67,6 +69,7 @@ impl SurfaceScheme {
             Self::Sqrt3 => b::SCHEME_SQRT3,
             Self::Butterfly => b::SCHEME_BUTTERFLY,
             Self::ButterflyModified => b::SCHEME_BUTTERFLY_MODIFIED,
+            Self::TriQuad => b::SCHEME_TRI_QUAD,
         }
     }
 

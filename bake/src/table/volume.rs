@@ -265,7 +265,10 @@ pub(super) fn of_surface(
         SurfaceScheme::LoopWarren => Scheme::LoopWarren,
         SurfaceScheme::CatmullClark => Scheme::CatmullClark,
         SurfaceScheme::DooSabin => Scheme::DooSabin,
-        SurfaceScheme::Sqrt3 | SurfaceScheme::Butterfly | SurfaceScheme::ButterflyModified => {
+        SurfaceScheme::Sqrt3
+        | SurfaceScheme::Butterfly
+        | SurfaceScheme::ButterflyModified
+        | SurfaceScheme::TriQuad => {
             return Err(
                 Error::new("the volume that surfaces of this scheme enclose has no form").advise(
                     "leave --volume out, or take loop, loop-warren, catmull-clark or doo-sabin",

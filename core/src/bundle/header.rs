@@ -32,6 +32,8 @@ pub const SCHEME_SQRT3: u32 = 20;
 pub const SCHEME_BUTTERFLY: u32 = 21;
 /// [`Header::scheme`]: modified butterfly surfaces.
 pub const SCHEME_BUTTERFLY_MODIFIED: u32 = 22;
+/// [`Header::scheme`]: surfaces of triangles and quads by the triangle/quadrilateral scheme.
+pub const SCHEME_TRI_QUAD: u32 = 23;
 
 /// [`Header::boundary`] of surfaces: the rim is a cubic B-spline.
 pub const RIM_SPLINE: u32 = 16;

@@ -7,7 +7,7 @@ use zerocopy::FromBytes;
 use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
-    SCHEME_BUTTERFLY_MODIFIED, SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SECTION_MODEL_POINTS,
+    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_MODEL_POINTS,
     SECTION_NORMALS, SECTION_REST_CAGE, SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
@@ -365,7 +365,7 @@ fn check_header(header: &Header, bytes: &[u8]) -> Result<(), BundleError> {
     let (scheme, boundary) = (header.scheme.get(), header.boundary.get());
     let is_solid = (SCHEME_TET_OCT..=SCHEME_MIXED).contains(&scheme)
         && (BOUNDARY_LOOP..=BOUNDARY_FIXED).contains(&boundary);
-    let is_surface = (SCHEME_LOOP..=SCHEME_BUTTERFLY_MODIFIED).contains(&scheme)
+    let is_surface = (SCHEME_LOOP..=SCHEME_TRI_QUAD).contains(&scheme)
         && (RIM_SPLINE..=RIM_FIXED).contains(&boundary);
     let known = (is_solid || is_surface)
         && header.fraction_bits.get() <= i32::BITS

@@ -202,6 +202,13 @@ pub enum MeshError {
         /// Its corners.
         corners: usize,
     },
+    /// A scheme of triangles and quads was given another face.
+    NotATriangleOrQuad {
+        /// The face.
+        face: usize,
+        /// Its corners.
+        corners: usize,
+    },
     /// Two faces run along an edge in the same direction, so that they cannot both be
     /// counter-clockwise.
     Orientation {
@@ -371,6 +378,11 @@ impl fmt::Display for MeshError {
             Self::NotAQuad { face, corners } => write!(
                 f,
                 "face {face} has {corners} corners, but the limit mask is for quads: refine once first"
+            ),
+            Self::NotATriangleOrQuad { face, corners } => write!(
+                f,
+                "face {face} has {corners} corners, but the scheme is for triangles and quads: cut the \
+                 polygon into such, or take a scheme for any polygons"
             ),
             Self::Orientation { edge: [a, b] } => write!(
                 f,

@@ -11,9 +11,8 @@
 //! * [`doo_sabin`]: any polygons, a face for each face, edge and vertex.
 //! * [`butterfly`]: triangles, through all vertices; the stencil of 1990 and the modified one.
 //! * [`sqrt3`]: triangles, three for each, the square root of 3 a step; uniform and adaptive.
-//!
-//! The weights of the triangle/quadrilateral scheme serve the boundary of
-//! [`solid::mixed`](crate::solid::mixed).
+//! * [`tri_quad`]: triangles and quads together, with an unzip where they meet; also the rule of the
+//!   boundary of [`solid::mixed`](crate::solid::mixed).
 //!
 //! [`features`] says what boundaries, creases and corners follow.
 
@@ -26,6 +25,7 @@ pub mod loop_scheme;
 pub mod loop_weights;
 mod split;
 pub mod sqrt3;
+pub mod tri_quad;
 pub(crate) mod tri_quad_weights;
 
 pub use features::{PointBuffers, Rim, VertexState};

@@ -5,7 +5,8 @@
 //!
 //! Every refined vertex is a [`Row`]: integer numerators over a denominator, found from the rule's
 //! own words ("the mean of the face points, twice the mean of the midpoints"). [`Row::round`]
-//! applies it to 32-bit integers, exactly, and rounds once.
+//! applies it to 32-bit integers, exactly, and rounds once. The scheme of triangles and quads has
+//! clones between, which are rounded too: [`TriQuad`].
 
 mod butterfly;
 mod catmull_clark;
@@ -15,6 +16,7 @@ mod multi_step;
 mod polygons;
 mod row;
 mod sqrt3;
+mod tri_quad;
 
 pub use butterfly::butterfly;
 pub use catmull_clark::{catmull_clark, catmull_clark_limit};
@@ -24,6 +26,7 @@ pub use multi_step::{after_steps, beside_limit};
 pub use polygons::{Border, Kind, Polygons, edge, sides};
 pub use row::{Grid, Row, WEIGHT_UNIT};
 pub use sqrt3::{sqrt3, sqrt3_limit};
+pub use tri_quad::{TriQuad, tri_quad};
 
 /// A refined mesh and the mask of each of its vertices.
 #[derive(Clone, Debug, PartialEq)]
