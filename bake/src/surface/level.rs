@@ -8,8 +8,8 @@ use octruss::mesh::{
 };
 use octruss::surface::butterfly::Variant;
 use octruss::surface::{
-    PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark, doo_sabin, loop_scheme,
-    sqrt3, tri_quad,
+    PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark, doo_sabin,
+    loop_scheme, sqrt3, tri_quad,
 };
 
 /// Connectivity of a surface at one level, owned.

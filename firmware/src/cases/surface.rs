@@ -2,7 +2,7 @@
 //!
 //! | words | what |
 //! | --- | --- |
-//! | 1 | scheme: 1 `loop`, 2 `loop-warren`, 3 Loop's with the weights of `tri-quad`, 4 `catmull-clark`, 5 `doo-sabin`, 6 `sqrt3`, 7 `butterfly`, 8 `butterfly-modified` |
+//! | 1 | scheme: 1 `loop`, 2 `loop-warren`, 3 Loop's with the weights of `tri-quad`, 4 `catmull-clark`, 5 `doo-sabin`, 6 `sqrt3`, 7 `butterfly`, 8 `butterfly-modified`, 9 `tri-quad` |
 //! | 1 | what the rim follows: 1 spline, 2 spline with corners, 3 fixed |
 //! | 1 | levels, at most 8 |
 //! | 1 | 1 if limit positions are wanted after the last level, else 0 |
@@ -15,15 +15,15 @@
 //!
 //! The results are, for each level from 1 on, the faces and the points of that level, and then the
 //! limit positions: of the last level's vertices, for Doo-Sabin of its faces. The butterflies go
-//! through their vertices and have none of their own.
+//! through their vertices and have none of their own, and `tri-quad` has no limit masks.
 
-use octruss::blend::FixedBlend;
+use octruss::blend::{Blend, FixedBlend, GuardedBlend};
 use octruss::mesh::{
     Arena, ControlMesh, ControlMeshBuffers, FaceOrder, Fans, MeshError, Side, SurfaceEdges,
 };
 use octruss::surface::{
     LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark,
-    doo_sabin, loop_scheme, sqrt3,
+    doo_sabin, loop_scheme, sqrt3, tri_quad,
 };
 
 use super::results::{Results, Sink, Status};
@@ -45,6 +45,7 @@ enum Scheme {
     DooSabin,
     Sqrt3,
     Butterfly(butterfly::Variant),
+    TriQuad,
 }
 
 fn scheme(word: u32) -> Result<Scheme, Status> {
@@ -57,6 +58,7 @@ fn scheme(word: u32) -> Result<Scheme, Status> {
         6 => Scheme::Sqrt3,
         7 => Scheme::Butterfly(butterfly::Variant::Original),
         8 => Scheme::Butterfly(butterfly::Variant::Modified),
+        9 => Scheme::TriQuad,
         _ => return Err(Status::Malformed),
     })
 }
@@ -135,6 +137,9 @@ pub(super) fn run<S: Sink>(
                 &mut keep,
                 &mut scratch,
             )?,
+            Scheme::TriQuad => {
+                refine_tri_quad(&mut blend, rim, mesh, points, &mut keep, &mut scratch)?
+            }
         };
         scratch.check()?;
         keep.check()?;
@@ -321,6 +326,32 @@ fn refine_butterfly<'s>(
     Ok((next, out))
 }
 
+fn refine_tri_quad<'s>(
+    blend: &mut Values,
+    rim: Rim,
+    mesh: ControlMesh<'_>,
+    points: &[[i32; 3]],
+    keep: &mut Space<'s>,
+    scratch: &mut Space<'_>,
+) -> Refined<'s> {
+    let edges = find_edges(&mesh, scratch)?;
+    let order = order(&mesh, scratch)?;
+    let buffers = mesh_buffers(tri_quad::split_counts(&mesh, &edges), keep)?;
+    let next = tri_quad::split(&mesh, &edges, &order, buffers).map_err(Status::Mesh)?;
+    let out = values(&next, keep)?;
+    let (vertices, old) = (out.len(), length(mesh.vertex_count));
+    let unknown = tri_quad::VertexDistortion::new(blend.zero());
+    let buffers = tri_quad::PointBuffers {
+        out: &mut *out,
+        sums: scratch.slice(Arena::Sums, vertices, blend.guarded_zero())?,
+        states: scratch.slice(Arena::States, vertices, VertexState::default())?,
+        distortions: scratch.slice(Arena::Distortions, old, unknown)?,
+    };
+    tri_quad::refine_points(blend, &mesh, &edges, &order, rim, points, buffers)
+        .map_err(Status::Mesh)?;
+    Ok((next, out))
+}
+
 /// Limit positions.
 fn limit<'s>(
     blend: &mut Values,
@@ -332,7 +363,7 @@ fn limit<'s>(
 ) -> Result<&'s [[i32; 3]], Status> {
     let vertices = length(mesh.vertex_count);
     let done: Result<_, MeshError> = match scheme {
-        Scheme::Butterfly(_) => return Err(Status::Malformed),
+        Scheme::Butterfly(_) | Scheme::TriQuad => return Err(Status::Malformed),
         Scheme::DooSabin => {
             let out = scratch.slice(Arena::OutputPoints, mesh.face_count(), [0; 3])?;
             doo_sabin::limit_points(blend, &mesh, points, out)

@@ -268,7 +268,8 @@ impl<B: GuardedBlend> Finish<'_, B> {
         for (((slot, own), distortion), (sum, state)) in old.zip(given.by_ref()) {
             *slot = self.vertex(own, sum, state, i64::from(distortion.weight));
         }
-        for ((slot, ends), (sum, state)) in out_edges.iter_mut().zip(edges.ends()).zip(given.by_ref())
+        for ((slot, ends), (sum, state)) in
+            out_edges.iter_mut().zip(edges.ends()).zip(given.by_ref())
         {
             *slot = if state.rule == Rule::Smooth {
                 self.collapse(sum, HALF_EDGE_WEIGHT.wrapping_mul(2))

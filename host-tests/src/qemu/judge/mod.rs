@@ -70,6 +70,8 @@ pub enum Subject {
     Update,
     /// Scalar channels through tables of every format
     Scalars,
+    /// Surfaces of triangles and quads by the triangle/quadrilateral scheme
+    TriQuadSurface,
 }
 
 impl Subject {
@@ -96,6 +98,7 @@ impl Subject {
             Subject::VolumeModes => volume::polynomial(seed),
             Subject::Update => update::case(seed),
             Subject::Scalars => scalars::case(seed),
+            Subject::TriQuadSurface => surface::case(Scheme::TriQuadSurface, seed),
         }
     }
 }

@@ -8,8 +8,8 @@ use super::{Expected, Judged, bits, word};
 use crate::qemu::conformance::Section;
 use crate::random_surface::{Shape, SurfaceCase, Wishes};
 use crate::reference_surface::{
-    Border, Family, Grid, Polygons, Refined, Row, apply, butterfly, catmull_clark,
-    catmull_clark_limit, count_saturated, doo_sabin, loop_limit, loop_rule, sqrt3, sqrt3_limit,
+    Border, Family, Grid, Polygons, Row, apply, butterfly, catmull_clark, catmull_clark_limit,
+    count_saturated, doo_sabin, loop_limit, loop_rule, sqrt3, sqrt3_limit, tri_quad,
 };
 
 /// A scheme, as cases number them.
@@ -23,10 +23,13 @@ pub(super) enum Scheme {
     Sqrt3 = 6,
     Butterfly = 7,
     ButterflyModified = 8,
+    TriQuadSurface = 9,
 }
 
 /// Corners of all faces that the image's memory holds in a refined mesh.
 const CORNERS_AT_MOST: usize = 2_000;
+/// The same where sums take 128 bits.
+const CORNERS_OF_WIDE_SUMS: usize = 1_500;
 /// The same where limit positions follow, which take a sum for every edge too.
 const CORNERS_BEFORE_LIMIT: usize = 750;
 
@@ -45,14 +48,14 @@ pub(super) fn case(scheme: Scheme, seed: u32) -> Judged {
     let mut words = vec![scheme as u32, seed % 3 + 1, 0, 0];
     push_mesh(&mut words, &mesh, &points);
     let wants_limit = scheme.has_limit() && (seed / 12).is_multiple_of(2);
-    let most = if wants_limit {
-        CORNERS_BEFORE_LIMIT
-    } else {
-        CORNERS_AT_MOST
+    let most = match scheme {
+        _ if wants_limit => CORNERS_BEFORE_LIMIT,
+        Scheme::TriQuadSurface => CORNERS_OF_WIDE_SUMS,
+        _ => CORNERS_AT_MOST,
     };
     let mut done = 0;
     while done < levels && scheme.takes(&mesh) {
-        let refined = scheme.refine(&mesh, border);
+        let refined = scheme.refine(&mesh, border, &walk.points);
         if corners(&refined.mesh) > most {
             break;
         }
@@ -76,6 +79,7 @@ pub(super) fn case(scheme: Scheme, seed: u32) -> Judged {
 fn control_mesh(scheme: Scheme, seed: u32) -> (Polygons, Vec<[i32; 3]>) {
     let shape = match scheme {
         Scheme::CatmullClark | Scheme::DooSabin => Shape::Polygons,
+        Scheme::TriQuadSurface => Shape::TrianglesAndQuads,
         _ => Shape::Triangles,
     };
     let wishes = Wishes {
@@ -89,7 +93,11 @@ fn control_mesh(scheme: Scheme, seed: u32) -> (Polygons, Vec<[i32; 3]>) {
         },
         tangled: matches!(
             scheme,
-            Scheme::Loop | Scheme::LoopWarren | Scheme::TriQuad | Scheme::CatmullClark
+            Scheme::Loop
+                | Scheme::LoopWarren
+                | Scheme::TriQuad
+                | Scheme::CatmullClark
+                | Scheme::TriQuadSurface
         ),
     };
     let SurfaceCase { mesh, points } = SurfaceCase::new(u64::from(seed), wishes);
@@ -116,7 +124,10 @@ impl Scheme {
     }
 
     fn has_limit(self) -> bool {
-        !matches!(self, Scheme::Butterfly | Scheme::ButterflyModified)
+        !matches!(
+            self,
+            Scheme::Butterfly | Scheme::ButterflyModified | Scheme::TriQuadSurface
+        )
     }
 
     fn has_limit_on(self, mesh: &Polygons) -> bool {
@@ -135,8 +146,17 @@ impl Scheme {
         }
     }
 
-    fn refine(self, mesh: &Polygons, border: Border) -> Refined {
-        match self {
+    /// One level of a mesh and its points.
+    fn refine(self, mesh: &Polygons, border: Border, points: &[[i32; 3]]) -> Step {
+        let refined = match self {
+            Scheme::TriQuadSurface => {
+                let refined = tri_quad(mesh, border);
+                return Step {
+                    points: refined.points(points),
+                    saturated: refined.count_saturated(points),
+                    mesh: refined.mesh,
+                };
+            }
             Scheme::Loop | Scheme::LoopWarren | Scheme::TriQuad => {
                 loop_rule(mesh, self.family(), border, Grid::Device)
             }
@@ -145,6 +165,11 @@ impl Scheme {
             Scheme::Sqrt3 => sqrt3(mesh, Grid::Device),
             Scheme::Butterfly => butterfly(mesh, false, border, Grid::Device),
             Scheme::ButterflyModified => butterfly(mesh, true, border, Grid::Device),
+        };
+        Step {
+            points: refined.points(points),
+            saturated: count_saturated(&refined.rows, points),
+            mesh: refined.mesh,
         }
     }
 
@@ -156,9 +181,17 @@ impl Scheme {
             Scheme::CatmullClark => catmull_clark_limit(mesh, border),
             Scheme::DooSabin => mesh.faces.iter().map(|face| Row::mean(face)).collect(),
             Scheme::Sqrt3 => sqrt3_limit(mesh, Grid::Device),
-            Scheme::Butterfly | Scheme::ButterflyModified => Vec::new(),
+            Scheme::Butterfly | Scheme::ButterflyModified | Scheme::TriQuadSurface => Vec::new(),
         }
     }
+}
+
+/// What one level comes to.
+struct Step {
+    mesh: Polygons,
+    points: Vec<[i32; 3]>,
+    /// Coordinates that do not fit.
+    saturated: usize,
 }
 
 /// Whether no sharp line ends or crosses another.
@@ -177,11 +210,11 @@ struct Walk {
 
 impl Walk {
     /// Goes one level on.
-    fn step(&mut self, level: u32, refined: Refined) -> Polygons {
-        let saturated = count_saturated(&refined.rows, &self.points);
-        self.points = refined.points(&self.points);
+    fn step(&mut self, level: u32, refined: Step) -> Polygons {
+        self.points = refined.points;
         self.expected.sections.push(faces(level, &refined.mesh));
-        self.expected.push_points(level, &self.points, saturated);
+        self.expected
+            .push_points(level, &self.points, refined.saturated);
         refined.mesh
     }
 
