@@ -99,6 +99,7 @@ fn every_scheme_is_reachable_and_refuses_what_it_does_not_take() {
         ("butterfly-modified", "10 vertices, 16 faces\n"),
         ("doo-sabin", "12 vertices, 14 faces\n"),
         ("catmull-clark", "14 vertices, 12 faces\n"),
+        ("tri-quad", "10 vertices, 16 faces\n"),
     ] {
         octruss()
             .args(["refine", "--scheme", scheme, "-o"])
@@ -183,4 +184,125 @@ fn a_baked_surface_moves_as_the_refined_one() {
         .assert()
         .failure()
         .stderr(contains("has not the connectivity of the control mesh"));
+}
+
+/// A square pyramid: a quad and four triangles.
+const PYRAMID: &str = "v 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\nv 0 0 1\n\
+    f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+
+/// Example 5.2 by hand. Both other ends of the mixed edges at a corner of the base have the mean 0, so
+/// that its clones are 23/24 of it for triangles and 25/24 for the quad.
+///
+/// * The apex, triangles alone: 5/8 of it and 3/8 of the mean of the base, 0.
+/// * The corner (1, 1, 0), two triangles at 1/6 and the quad at 1/4, that is 2, 2 and 3 of 7: x is
+///   `(4 * 10/16 * 23/24 + 3 * 25/24 * (9/16 - 1/16)) / 7 = 95/168`, z is `4 * 3/16 / 7 = 3/28`.
+/// * The middle between (1, 1, 0) and (-1, 1, 0), both faces alike: y is
+///   `(23/24 * 3/8 * 2 + 25/24 * (3/8 - 1/8) * 2) / 2 = 119/192`, z is `1/4 / 2`.
+#[test]
+fn tri_quad_of_a_pyramid() {
+    let folder = Folder::new();
+    let pyramid = folder.write("pyramid.obj", PYRAMID);
+    octruss()
+        .args(["refine", "--scheme", "tri-quad", "-o"])
+        .arg(folder.path("fine.obj"))
+        .arg(&pyramid)
+        .assert()
+        .success()
+        .stdout("14 vertices, 20 faces\n");
+    let fine = read::surface(&folder.path("fine.obj")).unwrap();
+    let near = |vertex: usize, want: [f64; 3]| {
+        let pairs = fine.points[vertex].iter().zip(&want);
+        let is_near = pairs.clone().all(|(got, want)| (got - want).abs() < 1e-15);
+        assert!(is_near, "{vertex}: {:?}, not {want:?}", fine.points[vertex]);
+    };
+    near(0, [95.0 / 168.0, 95.0 / 168.0, 3.0 / 28.0]);
+    near(4, [0.0, 0.0, 5.0 / 8.0]);
+    near(5, [0.0, 119.0 / 192.0, 1.0 / 8.0]);
+    near(13, [0.0, 0.0, 0.0]);
+    assert_eq!(fine.faces.iter().filter(|f| f.len() == 4).count(), 4);
+}
+
+/// What the scheme does not take or has not got is said, and nothing is written.
+#[test]
+fn tri_quad_refuses_polygons_and_limits() {
+    let folder = Folder::new();
+    let pyramid = folder.write("pyramid.obj", PYRAMID);
+    let pentagon = folder.write(
+        "pentagon.obj",
+        "v 0 0 0\nv 2 0 0\nv 3 1 0\nv 1 2 0\nv -1 1 0\nv 0 -1 0\nf 1 2 3 4 5\nf 2 1 6\n",
+    );
+    let out = folder.path("none.obj");
+    let refuses = |command: &[&str], mesh: &std::path::Path, words: &str| {
+        octruss()
+            .args(command)
+            .args(["--scheme", "tri-quad", "-o"])
+            .arg(&out)
+            .arg(mesh)
+            .assert()
+            .failure()
+            .stderr(contains(words));
+        assert!(!out.exists());
+    };
+    let five = "face 0 has 5 corners, but the scheme is for triangles and quads";
+    refuses(&["refine"], &pentagon, five);
+    refuses(&["bake"], &pentagon, five);
+    refuses(&["refine", "--limit"], &pyramid, "have no limit masks");
+    refuses(&["bake", "--limit"], &pyramid, "have no limit masks");
+    refuses(&["bake", "--volume"], &pyramid, "has no form");
+}
+
+/// As for Catmull-Clark above: the clones are rounded besides, to 2^-8 of a unit, so that a level is
+/// off by half a unit and half of 2^-8 more. The masks over the vertices of these levels have weights of
+/// either sign, with magnitudes that add up to at most 13/12 (a clone is at most that).
+#[test]
+fn a_baked_tri_quad_surface_moves_as_the_refined_one() {
+    let folder = Folder::new();
+    let pyramid = folder.write("pyramid.obj", PYRAMID);
+    let posed = folder.write(
+        "posed.obj",
+        PYRAMID.replacen("v 1 1 0", "v 1.5 1.25 -0.75", 1),
+    );
+    let (bundle, skin) = (folder.path("skin.oct"), folder.path("skin.obj"));
+    octruss()
+        .args(["bake", "--scheme", "tri-quad", "--levels", "3"])
+        .args(["--fraction-bits", "20", "--skin"])
+        .arg(&skin)
+        .arg("-o")
+        .arg(&bundle)
+        .arg(&pyramid)
+        .assert()
+        .success()
+        .stdout(contains("5 control points; 194 vertices"));
+    let header = std::fs::read(&bundle).unwrap();
+    assert_eq!(header[40..44], [23, 0, 0, 0], "the scheme's number");
+    octruss()
+        .arg("deform")
+        .arg(&bundle)
+        .arg("--pose")
+        .arg(&posed)
+        .arg("--model")
+        .arg(&skin)
+        .arg("-o")
+        .arg(folder.path("moved.obj"))
+        .assert()
+        .success();
+    octruss()
+        .args(["refine", "--scheme", "tri-quad", "--levels", "3"])
+        .args(["--numeric", "fixed", "--fraction-bits", "20", "-o"])
+        .arg(folder.path("refined.obj"))
+        .arg(&posed)
+        .assert()
+        .success();
+    let moved = read::surface(&folder.path("moved.obj")).unwrap();
+    let refined = read::surface(&folder.path("refined.obj")).unwrap();
+    assert_eq!(moved.faces, refined.faces);
+    let unit = 2.0_f64.powi(-20);
+    let a_level = 0.5 + 0.5 / 256.0;
+    let growth = 13.0 / 12.0;
+    let refining = a_level * (1.0 + growth + growth * growth);
+    for (one, other) in moved.points.iter().zip(&refined.points) {
+        for (a, b) in one.iter().zip(other) {
+            assert!((a - b).abs() <= (refining + 1.0 + 0.5) * unit, "{a} {b}");
+        }
+    }
 }

@@ -71,6 +71,16 @@ impl SurfaceCase {
         let points = random_points(&mut rng, mesh.vertex_count);
         Self { mesh, points }
     }
+
+    /// Every coordinate at the end of the range that it is nearer to: weights of either sign then lead
+    /// out of the range.
+    #[must_use]
+    pub fn at_the_ends(mut self) -> Self {
+        for coordinate in self.points.as_flattened_mut() {
+            *coordinate = if *coordinate < 0 { i32::MIN } else { i32::MAX };
+        }
+        self
+    }
 }
 
 /// Points that fill small grids, ordinary ranges or the whole of `i32`.

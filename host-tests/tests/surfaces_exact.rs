@@ -138,15 +138,20 @@ fn doo_sabin_equals_the_reference() {
     assert!(compared > case_count());
 }
 
-/// Closed and open meshes with creases, darts and corners, edges of three faces.
+/// Closed and open meshes with creases, darts and corners, edges of three faces; coordinates at the ends of
+/// their range, where weights of either sign saturate.
 #[test]
 fn tri_quad_equals_the_reference() {
-    let mut mixed = 0;
+    let (mut mixed, mut saturated) = (0, 0);
     for seed in 0..case_count() {
+        let mut case = SurfaceCase::new(seed, wishes(Shape::TrianglesAndQuads));
+        if seed % 5 == 0 {
+            case = case.at_the_ends();
+        }
         let SurfaceCase {
             mut mesh,
             mut points,
-        } = SurfaceCase::new(seed, wishes(Shape::TrianglesAndQuads));
+        } = case;
         let border = BORDERS[(seed % 3) as usize];
         for level in 0..1 + seed % 3 {
             let count = |corners: usize| mesh.faces.iter().filter(|f| f.len() == corners).count();
@@ -160,10 +165,28 @@ fn tri_quad_equals_the_reference() {
             assert_eq!(got_points, wanted, "seed {seed}, level {level}");
             let clamped = want.count_saturated(&points);
             assert_eq!(blend.saturated() as usize, clamped, "seed {seed}");
+            saturated += clamped;
             (mesh, points) = (got, got_points);
         }
     }
-    assert!(mixed > case_count() / 2, "{mixed}");
+    assert!(
+        mixed > case_count() / 2 && saturated > 0,
+        "{mixed}, {saturated}"
+    );
+}
+
+/// On triangles alone the scheme is Loop's with 3/(8n) of each neighbour.
+#[test]
+fn tri_quad_on_triangles_is_loops_scheme() {
+    for seed in 0..case_count() / 4 {
+        let SurfaceCase { mesh, points } = SurfaceCase::new(seed, wishes(Shape::Triangles));
+        let border = BORDERS[(seed % 3) as usize];
+        let want = refine_bits(Scheme::Loop(Family::TriQuad), border, &mesh, &points);
+        let mut blend = FixedBlend::<i32, 3>::new();
+        let got = refine_tri_quad(&mut blend, border, &mesh, &points);
+        assert_eq!(got, want, "seed {seed}");
+        assert!(got.is_ok(), "seed {seed}");
+    }
 }
 
 #[test]

@@ -17,6 +17,9 @@ const BENCH_CAGE: &str = "models/finger.msh";
 const MODEL: &str = "models/finger.obj";
 const MOTION: &str = "models/finger-motion.csv";
 const LEVELS: &str = "2";
+/// A surface that `bench` and `verify` move by its table and refine on the device.
+const SKIN: &str = "models/glove.obj";
+const SKIN_MOTION: &str = "models/glove-motion.csv";
 const UNIT: &str = "mm";
 
 /// Random cases of `test` on each subject; `verify` takes more.
@@ -125,11 +128,12 @@ pub fn ci() -> Result<(), Failure> {
 }
 
 /// The host's tests against the reference, which take more random cases in the long proofs.
-const HOST_PROOFS: [(&str, &str); 9] = [
+const HOST_PROOFS: [(&str, &str); 10] = [
     ("host: tetrahedra and octahedra", "equality"),
     ("host: box splines", "box_spline_equality"),
     ("host: mixed solids", "mixed_equality"),
     ("host: surfaces", "surfaces_exact"),
+    ("host: boundaries as surfaces", "tri_quad_boundary"),
     ("host: enclosed volume", "enclosed"),
     ("host: tables", "table"),
     ("host: tables in every format", "tables_exact"),
@@ -153,6 +157,12 @@ pub fn verify(cases: u32, seed: u32) -> Result<(), Failure> {
         "random cases on the host and the emulated processors",
         || conformance(Build::Release, cases, seed),
     )?;
+    steps.step("a surface by its table and refined on the device", || {
+        let directory = workspace::target()?.join("skin");
+        let files = ["--mesh", SKIN, "--motion", SKIN_MOTION, "--directory"];
+        let job = [&["skin"][..], &files, &[path(&directory)?]].concat();
+        device(Build::Release, &job)
+    })?;
     // One in ten of the cases above is damaged; the host's tests compare sound ones alone.
     let sound = (cases - cases / 10).to_string();
     for (name, test) in HOST_PROOFS {
@@ -233,6 +243,8 @@ pub fn bench() -> Result<(), Failure> {
         "refine",
         "--bin",
         "volume",
+        "--bin",
+        "skin",
     ];
     Program::cargo()
         .args(build)
@@ -255,6 +267,10 @@ pub fn bench() -> Result<(), Failure> {
         MODEL,
         "--motion",
         MOTION,
+        "--skin",
+        SKIN,
+        "--skin-motion",
+        SKIN_MOTION,
         "--output",
         "docs/performance.md",
         "--directory",

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::{Parser, Subcommand, ValueEnum as _};
+use octruss_host_tests::performance::skin;
 use octruss_host_tests::qemu::demo::{self, Example, Summary};
 use octruss_host_tests::qemu::judge::{Subject, judge};
 use octruss_host_tests::qemu::{Machine, Run, image};
@@ -66,6 +67,19 @@ enum Job {
     },
     /// Prints instructions a tap
     Bench,
+    /// Moves a surface by its table and refines it on the device, frame by frame: how far the two are
+    /// apart, against the bound, and what each costs
+    Skin {
+        /// Where the files of the run go
+        #[arg(long)]
+        directory: PathBuf,
+        /// The control mesh
+        #[arg(long)]
+        mesh: PathBuf,
+        /// A motion of its control points
+        #[arg(long)]
+        motion: PathBuf,
+    },
 }
 
 fn main() -> ExitCode {
@@ -88,6 +102,11 @@ fn main() -> ExitCode {
             model,
         } => play(directory, cage, model),
         Job::Bench => bench(),
+        Job::Skin {
+            directory,
+            mesh,
+            motion,
+        } => compare_skins(&directory, &mesh, &motion),
     };
     match passed {
         Ok(true) => ExitCode::SUCCESS,
@@ -159,6 +178,13 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
     };
     println!("\n{summary}");
     Ok(summary.mismatches() == 0)
+}
+
+fn compare_skins(directory: &Path, mesh: &Path, motion: &Path) -> Result<bool, demo::Failure> {
+    let made = skin::make(directory, mesh, motion)?;
+    let figures = skin::figures(directory)?;
+    println!("{}", skin::section(&made, &figures)?);
+    Ok(true)
 }
 
 fn bench() -> Result<bool, demo::Failure> {

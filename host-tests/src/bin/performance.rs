@@ -1,5 +1,5 @@
 //! Measures the apply beside its rivals and writes `docs/performance.md`. `cargo xtask bench` calls it; it
-//! expects the images `rivals`, `refine` and `volume` to be built.
+//! expects the images `rivals`, `refine`, `volume` and `skin` to be built.
 
 use std::fs;
 use std::hint::black_box;
@@ -15,7 +15,7 @@ use octruss_host_tests::performance::cycles::{
 };
 use octruss_host_tests::performance::input::{Failure, Inputs, make};
 use octruss_host_tests::performance::page::{Line, Measured, page};
-use octruss_host_tests::performance::volume;
+use octruss_host_tests::performance::{skin, volume};
 use octruss_host_tests::qemu::{Machine, Run, image};
 
 /// The shift of the instruction clock at which counts are exact.
@@ -39,6 +39,12 @@ struct Arguments {
     /// A motion of its control points, whose frames are the modes of the enclosed volume
     #[arg(long)]
     motion: PathBuf,
+    /// The control mesh of a surface
+    #[arg(long)]
+    skin: PathBuf,
+    /// A motion of its control points
+    #[arg(long)]
+    skin_motion: PathBuf,
     /// The page to write
     #[arg(long)]
     output: PathBuf,
@@ -63,8 +69,13 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
         &arguments.model,
         &arguments.motion,
     )?;
+    let surface = skin::make(
+        &arguments.directory,
+        &arguments.skin,
+        &arguments.skin_motion,
+    )?;
     let run = || -> Result<Figures, Failure> {
-        let images = ["rivals", "refine", "volume"];
+        let images = ["rivals", "refine", "volume", "skin"];
         let all: Result<Vec<_>, _> = images
             .map(|name| figures(arguments, name))
             .into_iter()
@@ -112,6 +123,7 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
     };
     let mut text = page(&measured);
     text += &volume::section(&enclosed, &first)?;
+    text += &skin::section(&surface, &first)?;
     println!("{text}");
     fs::write(&arguments.output, text)?;
     Ok(is_repeatable)

@@ -2,9 +2,11 @@
 //! would write instead, on the same rows.
 //!
 //! [`input`] makes the files that the image `rivals` reads, [`cycles`] asks `llvm-mca` about the hot loops,
-//! [`page`] writes the tables; [`volume`] does all of it for the enclosed volume.
+//! [`page`] writes the tables; [`volume`] does all of it for the enclosed volume, [`skin`] for a surface
+//! beside the same surface refined on the device.
 
 pub mod cycles;
 pub mod input;
 pub mod page;
+pub mod skin;
 pub mod volume;

@@ -1,10 +1,33 @@
-//! The triangle/quadrilateral scheme (examples 4.2 and 5.2), on sheets: surfaces without cells.
+//! The triangle/quadrilateral scheme (examples 4.2 and 5.2), on sheets: surfaces without cells. Every
+//! figure is held against both of the crate's: the sheets of mixed solids, and the surface scheme.
 
 use std::collections::BTreeMap;
 
 use num_rational::BigRational;
-use octruss_host_tests::mixed_subject::{ExactRows, Row, masks, ratio};
+use octruss_host_tests::mixed_subject::{ExactRows, Row, masks, ratio, unit_rows};
 use octruss_host_tests::reference_mixed::{Boundary, Mesh, Names};
+use octruss_host_tests::reference_surface::{Border, Polygons, edge};
+use octruss_host_tests::surface_subject::refine_tri_quad;
+
+/// The masks of a sheet's vertices by the surface scheme, and the sheet as it takes it.
+fn surface_masks(mesh: &Mesh) -> (Polygons, Vec<Row>) {
+    let triangles = mesh.triangles.iter().map(|face| face.to_vec());
+    let quads = mesh.quads.iter().map(|face| face.to_vec());
+    let surface = Polygons {
+        vertex_count: mesh.vertex_count,
+        faces: triangles.chain(quads).collect(),
+        ..Polygons::default()
+    };
+    let points = unit_rows(mesh.vertex_count);
+    let blend = &mut ExactRows::default();
+    let (_, rows) = refine_tri_quad(blend, Border::Spline, &surface, &points).expect("a surface");
+    (surface, rows)
+}
+
+/// The mask of a vertex that the surface scheme numbers as it stands.
+fn surface_mask(mesh: &Mesh, vertex: usize) -> Row {
+    surface_masks(mesh).1[vertex].clone()
+}
 
 /// A sheet of squares below a line and triangles above it: vertices by column and row, the line is
 /// row 0; triangles have edges along columns, rows and from (1, 0) to (0, 1).
@@ -45,6 +68,12 @@ impl Sheet {
         let (_, rows) = masks(&self.mesh, Boundary::TriQuad, &mut ExactRows::default());
         let parents: Vec<u32> = parents.iter().map(|at| self.vertices[at]).collect();
         let row: &Row = &rows[Names::new(&self.mesh).vertex(&parents, 0) as usize];
+        let (surface, rows) = surface_masks(&self.mesh);
+        let vertex = match parents.as_slice() {
+            [a, b] => surface.middles()[&edge(*a, *b)],
+            _ => parents[0],
+        };
+        assert_eq!(&rows[vertex as usize], row, "the two masks");
         let place = |vertex: u32| {
             let found = self.vertices.iter().find(|(_, other)| **other == vertex);
             *found.expect("a vertex").0
@@ -96,6 +125,7 @@ fn triangles_alone_have_three_over_eight_n() {
             want.insert(neighbour, ratio(3, 8 * i64::from(valence)));
         }
         assert_eq!(rows[0], want);
+        assert_eq!(surface_mask(&mesh, 0), want);
     }
 }
 
@@ -122,6 +152,7 @@ fn quadrilaterals_alone_have_nine_six_one() {
             want.insert(1 + valence + place, ratio(1, 16 * count));
         }
         assert_eq!(rows[0], want);
+        assert_eq!(surface_mask(&mesh, 0), want);
     }
 }
 
