@@ -57,7 +57,7 @@ impl Memory {
         unsafe { elements.assume_init_mut() }
     }
 
-    fn file(&mut self, name: &core::ffi::CStr) -> &'static [u8] {
+    fn file(&mut self, name: &'static core::ffi::CStr) -> &'static [u8] {
         let bytes = self.slice(FILE_UNITS, 0_u64).as_mut_bytes();
         let length = Input::open(name).read(bytes);
         bytes.get(..length).unwrap_or_default()

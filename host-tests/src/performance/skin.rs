@@ -185,7 +185,7 @@ pub fn section(skin: &Skin, figures: &[(String, u64)]) -> Result<String, Failure
     )?;
     write!(
         text,
-        "\nOf {} coordinates {} differ, by at most {greatest} units in the last place. They cannot differ by more\n\
+        "\nOf {} coordinates {} differ, by at most {greatest} in the last place. They cannot differ by more\n\
          than {bound:.2}: half a unit for the rounding of each level (no weight of a mask is negative, so none\n\
          magnifies what was rounded before), half a unit for that of the rest position, and {:.2} that the\n\
          baker proves for the table.\n",
