@@ -55,6 +55,8 @@
 //! | [`SECTION_NORMALS`] | how many are zero, x y z of the normal of each row |
 //! | [`SECTION_SCALARS`] | values saturated, the channels of each row |
 //! | [`SECTION_CHANNELS`] | level, values saturated so far, the channels of each vertex at that level |
+//! | [`SECTION_RIG`] | see [`rig`]; numbers of 64 bits have their low word first |
+//! | [`SECTION_SPRINGS`] | see [`springs`] |
 //! | [`SECTION_LABELS`] | level, the label of each tetrahedron at that level; then the same of octahedra |
 
 pub mod apply;
@@ -63,9 +65,11 @@ pub mod data;
 pub mod mixed;
 pub mod refine;
 mod results;
+pub mod rig;
 pub mod scalars;
 pub mod solid;
 mod space;
+pub mod springs;
 pub mod sqrt3;
 pub mod surface;
 pub mod update;
@@ -124,6 +128,16 @@ pub const REFINE_DATA: u32 = 17;
 /// Kind of a case: apply a table again where control points moved, with factored tables and normals too.
 pub const UPDATE: u32 = 20;
 
+/// Kind of a case: pose a rig.
+pub const RIG: u32 = 40;
+/// Kind of a case: sines and cosines of angles.
+pub const TURN: u32 = 41;
+
+/// Kind of a case: points on springs, tick by tick.
+pub const SPRINGS: u32 = 42;
+/// Kind of a case: points on springs that are shaken at random, by hashes of their state.
+pub const SHAKES: u32 = 43;
+
 /// Tag of the section that ends a case.
 pub const SECTION_END: u32 = 0;
 /// Tag of a section about the cells of a level.
@@ -157,6 +171,12 @@ pub const SECTION_CHANNELS: u32 = 17;
 /// Tag of a section with the labels of the cells of one shape at a level.
 pub const SECTION_LABELS: u32 = 18;
 
+/// Tag of a section with the joints and control points of a rig, or sines and cosines.
+pub const SECTION_RIG: u32 = 40;
+
+/// Tag of a section with points on springs or the hash of their state.
+pub const SECTION_SPRINGS: u32 = 42;
+
 /// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
 ///
 /// Nothing here panics or takes more than `memory`: a case that is malformed, wrong or too large
@@ -178,6 +198,10 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         UPDATE => update::run(words, memory.space(), results),
         APPLY_SCALARS => scalars::run(words, memory.space(), results),
         REFINE_DATA => data::run(words, memory, results),
+        RIG => rig::run(words, memory.space(), results),
+        TURN => rig::run_turn(words, results),
+        SPRINGS => springs::run(words, memory.space(), results),
+        SHAKES => springs::run_shakes(words, memory.space(), results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));

@@ -21,6 +21,10 @@
 //!   [`surface_subject`] and [`surface_rows`] drive the crate under test on them.
 //! - [`reference_volume`] is the enclosed volume written again, in integers of any length;
 //!   [`random_volume`] draws its forms and poses.
+//! - [`reference_rig`] is the rig written again, in integers of any length; [`random_rig`] draws rigs and
+//!   commands.
+//! - [`reference_springs`] is the springs written again in the same way; [`random_springs`] draws springs,
+//!   states, pushes and obstacles.
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
 //! - [`reference_mixed`] is Hakenberg's scheme for mixed solids written again in the same way;
 //!   [`random_mixed`] draws mixed solids, and [`mixed_subject`] drives the crate under test on
@@ -42,6 +46,8 @@ pub mod random_bundle;
 pub mod random_data;
 pub mod random_mesh;
 pub mod random_mixed;
+pub mod random_rig;
+pub mod random_springs;
 pub mod random_surface;
 pub mod random_table;
 pub mod random_update;
@@ -50,6 +56,8 @@ pub mod rational;
 pub mod reference;
 pub mod reference_box_spline;
 pub mod reference_mixed;
+pub mod reference_rig;
+pub mod reference_springs;
 pub mod reference_surface;
 pub mod reference_volume;
 pub mod snapshot;

@@ -128,7 +128,7 @@ pub fn ci() -> Result<(), Failure> {
 }
 
 /// The host's tests against the reference, which take more random cases in the long proofs.
-const HOST_PROOFS: [(&str, &str); 10] = [
+const HOST_PROOFS: [(&str, &str); 12] = [
     ("host: tetrahedra and octahedra", "equality"),
     ("host: box splines", "box_spline_equality"),
     ("host: mixed solids", "mixed_equality"),
@@ -139,6 +139,8 @@ const HOST_PROOFS: [(&str, &str); 10] = [
     ("host: tables in every format", "tables_exact"),
     ("host: scalars", "scalars"),
     ("host: labels and channels", "data_equality"),
+    ("host: rigs", "rig"),
+    ("host: springs", "springs"),
 ];
 
 /// The long proofs.

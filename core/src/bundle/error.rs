@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::control::rig::RigError;
+use crate::control::springs::SpringsError;
 use crate::enclosed::EnclosedError;
 
 /// Why a bundle cannot be opened.
@@ -70,6 +72,10 @@ pub enum BundleError {
     },
     /// A volume form is not sound.
     Volume(EnclosedError),
+    /// A rig is not sound.
+    Rig(RigError),
+    /// Springs are not sound.
+    Springs(SpringsError),
     /// The faces round the point of a row are not sound: a neighbour that does not exist, too many corners,
     /// or lengths that do not fit. The number of rows if it is not the fault of a row.
     Normals {
@@ -128,6 +134,8 @@ impl fmt::Display for BundleError {
             ),
             Self::Start { row } => write!(f, "the start value of row {row} is too large"),
             Self::Volume(error) => write!(f, "the bundle's volume form is not sound: {error}"),
+            Self::Rig(error) => write!(f, "the bundle's rig is not sound: {error}"),
+            Self::Springs(error) => write!(f, "the bundle's springs are not sound: {error}"),
             Self::Normals { row } => {
                 write!(f, "the faces round the point of row {row} are not sound")
             }

@@ -113,6 +113,12 @@ pub const SECTION_VOLUME_MODES: u32 = 9;
 /// [`Section::kind`]: the faces round every row's point, for normals.
 pub const SECTION_NORMALS: u32 = 10;
 
+/// [`Section::kind`]: a skeleton that carries the control points.
+pub const SECTION_RIG: u32 = 13;
+
+/// [`Section::kind`]: damped springs between the control points.
+pub const SECTION_SPRINGS: u32 = 14;
+
 /// What the section of normals starts with: 16 bytes. The fans follow, `u16` each.
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]

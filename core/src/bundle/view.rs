@@ -8,10 +8,13 @@ use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
     SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_MODEL_POINTS,
-    SECTION_NORMALS, SECTION_REST_CAGE, SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
+    SECTION_NORMALS, SECTION_REST_CAGE, SECTION_RIG, SECTION_SPRINGS, SECTION_VOLUME,
+    SECTION_VOLUME_MODES, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
+use crate::control::rig::Rig;
+use crate::control::springs::Springs;
 use crate::coord::Coordinate;
 use crate::deform::{CompactTable, Normals, Table};
 use crate::enclosed::{VolumeForm, VolumeModes};
@@ -211,6 +214,40 @@ impl<'a> Bundle<'a> {
         VolumeModes::from_section(bytes)
             .map(Some)
             .map_err(BundleError::Volume)
+    }
+
+    /// The skeleton that carries the control points; `None` if none was baked. It is proved sound here, not
+    /// when the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format,
+    /// [`BundleError::Rig`] if the rig is not sound.
+    pub fn rig<C: Coordinate>(&self) -> Result<Option<Rig<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_RIG, 0)? else {
+            return Ok(None);
+        };
+        Rig::from_section(bytes, self.rest_cage)
+            .map(Some)
+            .map_err(BundleError::Rig)
+    }
+
+    /// The springs between the control points; `None` if none were baked. They are proved sound here, not
+    /// when the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format,
+    /// [`BundleError::Springs`] if the springs are not sound.
+    pub fn springs<C: Coordinate>(&self) -> Result<Option<Springs<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_SPRINGS, 0)? else {
+            return Ok(None);
+        };
+        Springs::from_section(bytes, self.rest_cage.len())
+            .map(Some)
+            .map_err(BundleError::Springs)
     }
 
     /// The faces round the model's points, for their normals; `None` if they were not baked. They are proved

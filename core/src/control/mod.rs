@@ -6,5 +6,10 @@
 //!
 //! * [`inverse`]: amplitudes of a few actuation modes that bring points of the model to their goals while the
 //!   enclosed volume is held; or, the other way round, the amplitudes that measured points tell of.
+//! * [`rig`]: a skeleton of joints that carries control points.
+//! * [`springs`]: the control points as masses on damped springs that strive for a goal shape, are pushed
+//!   and hit things.
 
 pub mod inverse;
+pub mod rig;
+pub mod springs;

@@ -4,6 +4,8 @@ use core::fmt;
 
 use crc::Digest;
 use octruss::bundle::BundleError;
+use octruss::control::rig::RigError;
+use octruss::control::springs::SpringsError;
 use octruss::deform::ApplyError;
 use octruss::enclosed::EnclosedError;
 use octruss::mesh::MeshError;
@@ -48,6 +50,10 @@ pub enum Status {
     /// 9: the volume form is unsound or cannot be evaluated; the detail is the CRC-32 of the error's
     /// message.
     Enclosed(EnclosedError),
+    /// 20: the rig is unsound or cannot be posed; the detail is the CRC-32 of the error's message.
+    Rig(RigError),
+    /// 21: the springs are unsound or cannot be moved; the detail is the CRC-32 of the error's message.
+    Springs(SpringsError),
 }
 
 impl Status {
@@ -69,6 +75,8 @@ impl Status {
             Status::Apply(error) => [7, checksum(&error), 0, 0],
             Status::Memory => [8, 0, 0, 0],
             Status::Enclosed(error) => [9, checksum(&error), 0, 0],
+            Status::Rig(error) => [20, checksum(&error), 0, 0],
+            Status::Springs(error) => [21, checksum(&error), 0, 0],
         }
     }
 }

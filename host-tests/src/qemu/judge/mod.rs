@@ -8,7 +8,9 @@ mod apply;
 mod box_spline;
 mod data;
 mod mixed;
+mod rig;
 mod scalars;
+pub mod springs;
 mod sqrt3;
 mod surface;
 mod tet_oct;
@@ -72,6 +74,14 @@ pub enum Subject {
     Scalars,
     /// Surfaces of triangles and quads by the triangle/quadrilateral scheme
     TriQuadSurface,
+    /// Skeletons and the control points that they carry
+    Rig,
+    /// Sines and cosines
+    Turn,
+    /// Control points on springs, pushed and among obstacles
+    Springs,
+    /// Control points on springs, shaken at random
+    Shakes,
 }
 
 impl Subject {
@@ -99,6 +109,10 @@ impl Subject {
             Subject::Update => update::case(seed),
             Subject::Scalars => scalars::case(seed),
             Subject::TriQuadSurface => surface::case(Scheme::TriQuadSurface, seed),
+            Subject::Rig => rig::case(seed),
+            Subject::Turn => rig::turn(seed),
+            Subject::Springs => springs::case(seed),
+            Subject::Shakes => springs::shakes(seed),
         }
     }
 }
