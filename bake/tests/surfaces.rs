@@ -248,7 +248,6 @@ fn tri_quad_refuses_polygons_and_limits() {
     refuses(&["bake"], &pentagon, five);
     refuses(&["refine", "--limit"], &pyramid, "have no limit masks");
     refuses(&["bake", "--limit"], &pyramid, "have no limit masks");
-    refuses(&["bake", "--volume"], &pyramid, "has no form");
 }
 
 /// As for Catmull-Clark above: the clones are rounded besides, to 2^-8 of a unit, so that a level is

@@ -9,6 +9,7 @@ use octruss_bake::forms::{
     ClosedMesh, ControlForm, DeviceForm, DeviceModes, LimitSurface, ModeVolume, Scheme,
 };
 use octruss_bake::mesh::Features;
+use octruss_bake::surface::SurfaceScheme;
 use zerocopy::IntoBytes;
 
 const BITS: u32 = 20;
@@ -154,11 +155,11 @@ fn sharp_cube() -> (Shape, Enclosure) {
 #[test]
 fn creases_are_extrapolated() {
     let (shape, surface) = sharp_cube();
-    let [form, before] = surface.control_forms(Scheme::Loop).unwrap();
+    let [form, before] = surface.control_forms(SurfaceScheme::Loop).unwrap();
     // All edges are straight creases with fixed ends: the surface is the cube.
     assert!((form.volume(&shape.real()) - 1.0).abs() < 1e-12);
     assert!((before.volume(&shape.real()) - 1.0).abs() < 1e-12);
-    assert!(surface.limit(Scheme::Loop).is_err());
+    assert!(surface.limit(SurfaceScheme::Loop).is_err());
 }
 
 /// A cube that three modes stretch along the axes has the volume (1 + q_1)(1 + q_2)(1 + q_3): eight
@@ -166,7 +167,7 @@ fn creases_are_extrapolated() {
 #[test]
 fn a_stretched_cube_is_a_product() {
     let (shape, surface) = sharp_cube();
-    let [form, _] = surface.control_forms(Scheme::Loop).unwrap();
+    let [form, _] = surface.control_forms(SurfaceScheme::Loop).unwrap();
     let rest = shape.real();
     let stretched = |axis: usize| -> Vec<[f64; 3]> {
         let mut pose = rest.clone();

@@ -4,11 +4,12 @@ use super::{print_figures, show_notes};
 use octruss_bake::error::{Error, Result};
 use octruss_bake::forms::solid::Enclosure;
 use octruss_bake::forms::surface::centred;
-use octruss_bake::forms::{DeviceForm, FormError, Scheme};
+use octruss_bake::forms::{DeviceForm, FormError, Moments};
 use octruss_bake::mesh::{Features, Point};
 use octruss_bake::picture::{Frame, Scene, Sheet, coloured_sheet};
 use octruss_bake::read::{self, obj::Model};
 use octruss_bake::refine::Level;
+use octruss_bake::surface::SurfaceScheme;
 use octruss_bake::table::format::{Format, MOST_FRACTION_BITS};
 use octruss_bake::write;
 use serde::Serialize;
@@ -19,15 +20,16 @@ use std::path::{Path, PathBuf};
 ///
 /// The mesh is the control mesh of a subdivision surface (.obj), of any genus, or a cage (.msh,
 /// .vtu), whose boundary is meant. It must be closed, a manifold, and consistently oriented; the volume is
-/// positive if faces run counter-clockwise seen from outside. On a surface with creases or corners, as
-/// cages may have, the volume of refined polyhedra is extrapolated, and an error estimate is printed.
+/// positive if faces run counter-clockwise seen from outside. Where no exact form is known (creases and
+/// corners; the schemes tri-quad, sqrt3 and the butterflies) the volume of refined polyhedra is
+/// extrapolated, and an error estimate is printed.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The control mesh (.obj) or cage (Gmsh .msh, VTK .vtu)
     mesh: PathBuf,
-    /// The subdivision scheme; loop or loop-warren for a cage
+    /// The subdivision scheme; for a cage loop, loop-warren, or tri-quad (mixed cages)
     #[arg(long, value_enum)]
-    scheme: Scheme,
+    scheme: SurfaceScheme,
     /// Also print the centroid, and the inertia tensor about it at unit density
     #[arg(long)]
     moments: bool,
@@ -60,7 +62,7 @@ pub struct Arguments {
     json: bool,
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct Figures {
     volume: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -69,6 +71,12 @@ struct Figures {
     centroid: Option<Point>,
     #[serde(skip_serializing_if = "Option::is_none")]
     inertia: Option<[Point; 3]>,
+    /// Of a coordinate of the centroid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centroid_error_estimate: Option<f64>,
+    /// Of an entry of the inertia tensor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inertia_error_estimate: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     device: Option<DeviceFigures>,
 }
@@ -125,11 +133,8 @@ fn read_input(arguments: &Arguments) -> Result<Input> {
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
     show_notes(&mesh.notes);
     let level = Level::new(&mesh).map_err(of_mesh)?;
-    level.require_bare_boundary().map_err(of_mesh)?;
-    let faces = level.boundary().iter().map(|face| face.to_vec());
-    let faces = faces.collect::<Vec<_>>();
     Ok(Input {
-        surface: Enclosure::new(&faces, &mesh.features).map_err(of_mesh)?,
+        surface: Enclosure::of_cage(&level, &mesh.features).map_err(of_mesh)?,
         points: mesh.points,
         model: None,
     })
@@ -141,38 +146,16 @@ fn of_form(error: FormError) -> Error {
 
 fn figures(arguments: &Arguments, input: &Input) -> Result<Figures> {
     let own = input.surface.own(&input.points);
-    let (moved, _) = centred(&own);
-    let mut figures = Figures {
-        volume: 0.0,
-        error_estimate: None,
-        centroid: None,
-        inertia: None,
-        device: None,
+    let mut figures = match input.surface.exact_scheme(arguments.scheme) {
+        Some(_) => exact(arguments, input, &own)?,
+        None => {
+            let scheme = arguments.scheme;
+            let [last, before] = input.surface.extrapolated_moments(scheme, &own)?;
+            extrapolated(arguments, last, before)
+        }
     };
-    if !input.surface.has_features() {
-        let limit = input.surface.limit(arguments.scheme)?;
-        figures.volume = limit.volume(&moved).map_err(of_form)?;
-        if arguments.moments {
-            let moments = limit.moments(&own).map_err(of_form)?;
-            figures.centroid = Some(moments.centroid);
-            figures.inertia = Some(moments.inertia);
-        }
-        if !arguments.device {
-            return Ok(figures);
-        }
-    } else if arguments.moments {
-        return Err(
-            Error::new("the moments of a surface with creases or corners are not known")
-                .advise("leave --moments out"),
-        );
-    }
-    let [form, other] = input.surface.control_forms(arguments.scheme)?;
-    let (moved, _) = centred(&input.points);
-    if input.surface.has_features() {
-        figures.volume = form.volume(&moved);
-        figures.error_estimate = Some((figures.volume - other.volume(&moved)).abs());
-    }
     if arguments.device {
+        let [form, _] = input.surface.control_forms(arguments.scheme)?;
         let format = match arguments.fraction_bits {
             Some(fraction_bits) => Format { fraction_bits },
             None => Format::with_headroom(&input.points),
@@ -181,6 +164,41 @@ fn figures(arguments: &Arguments, input: &Input) -> Result<Figures> {
         figures.device = Some(device(&form, format.fraction_bits, &bits)?);
     }
     Ok(figures)
+}
+
+fn exact(arguments: &Arguments, input: &Input, own: &[Point]) -> Result<Figures> {
+    let (moved, _) = centred(own);
+    let limit = input.surface.limit(arguments.scheme)?;
+    let mut figures = Figures {
+        volume: limit.volume(&moved).map_err(of_form)?,
+        ..Figures::default()
+    };
+    if arguments.moments {
+        let moments = limit.moments(own).map_err(of_form)?;
+        figures.centroid = Some(moments.centroid);
+        figures.inertia = Some(moments.inertia);
+    }
+    Ok(figures)
+}
+
+fn extrapolated(arguments: &Arguments, last: Moments, before: Moments) -> Figures {
+    let mut figures = Figures {
+        volume: last.volume,
+        error_estimate: Some((last.volume - before.volume).abs()),
+        ..Figures::default()
+    };
+    if arguments.moments {
+        let apart = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b);
+            pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+        };
+        let inertia = [last.inertia.as_flattened(), before.inertia.as_flattened()];
+        figures.centroid_error_estimate = Some(apart(&last.centroid, &before.centroid));
+        figures.inertia_error_estimate = Some(apart(inertia[0], inertia[1]));
+        figures.centroid = Some(last.centroid);
+        figures.inertia = Some(last.inertia);
+    }
+    figures
 }
 
 /// Rounds the form and runs core's own code on it.
@@ -215,7 +233,7 @@ fn draw(arguments: &Arguments, input: &Input, file: &Path) -> Result<()> {
         cage_edges: &[],
     };
     let frame = Frame {
-        caption: format!("{}, shares of the volume", arguments.scheme),
+        caption: format!("{}, shares of the volume", scheme_name(arguments.scheme)),
         model: portrait.points,
         cage: Vec::new(),
     };
@@ -228,6 +246,11 @@ fn draw(arguments: &Arguments, input: &Input, file: &Path) -> Result<()> {
         out.write_all(&png)
             .map_err(|error| Error::new(format!("cannot be written: {error}")))
     })
+}
+
+fn scheme_name(scheme: SurfaceScheme) -> String {
+    let value = clap::ValueEnum::to_possible_value(&scheme);
+    value.map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 fn reach(arguments: &Arguments, input: &Input, target: f64, output: &Path) -> Result<()> {
@@ -256,8 +279,14 @@ fn words(figures: &Figures) -> String {
     if let Some([x, y, z]) = figures.centroid {
         let _ = write!(text, "\ncentroid {x} {y} {z}");
     }
+    if let Some(error) = figures.centroid_error_estimate {
+        let _ = write!(text, " +- {error:.2e}");
+    }
     for [x, y, z] in figures.inertia.iter().flatten() {
         let _ = write!(text, "\ninertia {x} {y} {z}");
+    }
+    if let Some(error) = figures.inertia_error_estimate {
+        let _ = write!(text, " +- {error:.2e}");
     }
     if let Some(device) = &figures.device {
         let _ = write!(

@@ -3,7 +3,7 @@
 //! What is shipped to a device: every facet's form, or every triangle's determinant, carried back
 //! through the refinement to the control points and added up.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::error::FormError;
 use super::form::{TrilinearForm, triples};
@@ -45,26 +45,46 @@ impl ControlForm {
     ///
     /// [`FormError::TooManyPoints`] if it depends on more than [`MOST_CONTROL_POINTS`].
     pub fn of_triangles(triangles: &[[u32; 3]], rows: &[Row<f64>]) -> Result<Self, FormError> {
-        let all = triangles.iter().flatten();
+        Self::of_faces(triangles.iter().map(<[u32; 3]>::as_slice), rows)
+    }
+
+    /// The same of a closed mesh of polygons, each a fan of triangles round the mean of its corners.
+    ///
+    /// # Errors
+    ///
+    /// [`FormError::TooManyPoints`] if it depends on more than [`MOST_CONTROL_POINTS`].
+    pub fn of_faces<'a>(
+        faces: impl Iterator<Item = &'a [u32]>,
+        rows: &[Row<f64>],
+    ) -> Result<Self, FormError> {
+        let faces = faces.collect::<Vec<_>>();
+        let all = faces.iter().copied().flatten();
         let mut sum = Sum::new(all.map(|&vertex| &rows[vertex as usize]))?;
-        let determinant = TrilinearForm::from_fn(3, |_, _, _| 1.0 / 6.0);
-        for triangle in triangles {
-            let own = triangle.map(|vertex| rows[vertex as usize].clone());
-            sum.add(&determinant, own.to_vec());
+        let mut fans = BTreeMap::new();
+        for face in faces {
+            let fan = fans.entry(face.len()).or_insert_with(|| fan(face.len()));
+            let own = face.iter().map(|&vertex| rows[vertex as usize].clone());
+            sum.add(fan, own.collect());
         }
         Ok(sum.finish())
     }
 
     /// The limit of two forms over the same points, of which the finer has a quarter of the
-    /// coarser's error, and how far it is from the finer: the greatest coefficient's change.
+    /// coarser's error.
     #[must_use]
     pub fn extrapolated(coarser: &Self, finer: &Self) -> Self {
+        Self::combined(coarser, finer, |coarse, fine| (4.0 * fine - coarse) / 3.0)
+    }
+
+    /// Two forms over the same points made one, coefficient by coefficient.
+    #[must_use]
+    pub fn combined(coarser: &Self, finer: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         let pairs = coarser
             .form
             .coefficients()
             .iter()
             .zip(finer.form.coefficients());
-        let mut limits = pairs.map(|(coarse, fine)| (4.0 * fine - coarse) / 3.0);
+        let mut limits = pairs.map(|(coarse, fine)| combine(*coarse, *fine));
         Self {
             points: finer.points.clone(),
             form: TrilinearForm::from_fn(finer.points.len(), |_, _, _| {
@@ -90,6 +110,24 @@ impl ControlForm {
     fn own(&self, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
         self.points.iter().map(|&point| points[point]).collect()
     }
+}
+
+/// The cone over a polygon: six times `n` times its volume is the sum over edges and other corners of
+/// their determinants.
+fn fan(corners: usize) -> TrilinearForm<f64> {
+    let mut form = TrilinearForm::zero(corners);
+    let share = 1.0 / (6.0 * corners as f64);
+    for from in 0..corners {
+        let to = (from + 1) % corners;
+        for other in (0..corners).filter(|other| ![from, to].contains(other)) {
+            let mut triple = [other, from, to];
+            triple.sort_unstable();
+            let [a, b, c] = triple;
+            let even = [[a, b, c], [b, c, a], [c, a, b]].contains(&[other, from, to]);
+            form.add_to(triple, if even { share } else { -share });
+        }
+    }
+    form
 }
 
 /// A form under construction.

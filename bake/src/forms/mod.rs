@@ -14,6 +14,7 @@
 //!   inertia, and the nearest mesh that encloses a given volume.
 //! * [`control`], [`device`]: the volume as one form over the control points, and in integers.
 //! * [`modes`]: the volume as a cubic polynomial of a few modes; [`region`]: of the cells with a label.
+//! * [`polyhedra`]: surfaces without an exact form, by extrapolation.
 //! * [`solid`], [`portrait`]: the surfaces of files, and their picture.
 
 pub mod cache;
@@ -28,6 +29,7 @@ pub mod mesh;
 pub mod modes;
 pub mod moments;
 mod patch;
+pub mod polyhedra;
 mod polynomial;
 pub mod portrait;
 pub mod region;

@@ -87,12 +87,21 @@ impl LimitSurface<f64> {
     /// [`FormError::Points`] if the number of control points is not that of the mesh.
     pub fn moments(&self, points: &[[f64; 3]]) -> Result<Moments, FormError> {
         let (moved, middle) = centred(points);
-        let [volume, x, y, z, xx, yy, zz, xy, yz, zx] = self.integrate(&moved, &second_order)?;
+        let integrals = self.integrate(&moved, &second_order)?;
+        Ok(Moments::of_integrals(integrals, middle))
+    }
+}
+
+impl Moments {
+    /// From the integrals of 1, x, y, z, xx, yy, zz, xy, yz, zx over a solid that was moved so that
+    /// `middle` is the origin.
+    pub(crate) fn of_integrals(integrals: [f64; 10], middle: [f64; 3]) -> Self {
+        let [volume, x, y, z, xx, yy, zz, xy, yz, zx] = integrals;
         let [cx, cy, cz] = [x, y, z].map(|first| first / volume);
         // Moved to the centroid: the parallel axis theorem.
         let (xx, yy, zz) = (xx - cx * x, yy - cy * y, zz - cz * z);
         let (xy, yz, zx) = (xy - cx * y, yz - cy * z, zx - cz * x);
-        Ok(Moments {
+        Self {
             volume,
             centroid: [cx + middle[0], cy + middle[1], cz + middle[2]],
             inertia: [
@@ -100,8 +109,60 @@ impl LimitSurface<f64> {
                 [-xy, zz + xx, -yz],
                 [-zx, -yz, xx + yy],
             ],
-        })
+        }
     }
+}
+
+/// The integrals of 1, x, y, z, xx, yy, zz, xy, yz, zx over the inside of a closed mesh, its faces fans
+/// of triangles round the mean of their corners: sums over the cones from the origin.
+pub(crate) fn polyhedral_integrals<'a>(
+    faces: impl Iterator<Item = &'a [u32]>,
+    points: &[[f64; 3]],
+) -> [f64; 10] {
+    let mut total = [0.0; 10];
+    for face in faces {
+        let at = |place: usize| points[face[place % face.len()] as usize];
+        if face.len() == 3 {
+            add(&mut total, &cone([at(0), at(1), at(2)]));
+            continue;
+        }
+        let mut mean = [0.0; 3];
+        for place in 0..face.len() {
+            for (axis, coordinate) in mean.iter_mut().zip(at(place)) {
+                *axis += coordinate / face.len() as f64;
+            }
+        }
+        for place in 0..face.len() {
+            add(&mut total, &cone([mean, at(place), at(place + 1)]));
+        }
+    }
+    total
+}
+
+/// The integrals over the tetrahedron of the origin and three points: of a linear function its volume
+/// times the sum at the corners over 4, of a product of two the sum of products and the product of sums
+/// over 20.
+fn cone([a, b, c]: [[f64; 3]; 3]) -> [f64; 10] {
+    let normal = cross(&b, &c);
+    let volume = (a[0] * normal[0] + a[1] * normal[1] + a[2] * normal[2]) / 6.0;
+    let sum = [0, 1, 2].map(|axis| a[axis] + b[axis] + c[axis]);
+    let product = |i: usize, j: usize| {
+        let products = a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
+        volume * (products + sum[i] * sum[j]) / 20.0
+    };
+    let [x, y, z] = sum.map(|value| volume * value / 4.0);
+    [
+        volume,
+        x,
+        y,
+        z,
+        product(0, 0),
+        product(1, 1),
+        product(2, 2),
+        product(0, 1),
+        product(1, 2),
+        product(2, 0),
+    ]
 }
 
 /// 1, x, y, z, xx, yy, zz, xy, yz, zx, each divided by its degree plus 3.

@@ -2,18 +2,17 @@
 //!
 //! A file's vertices that no face uses are left out, and come back where results are named.
 
-use octruss::blend::Blend;
-use octruss::mesh::{ControlMesh, ControlMeshBuffers, MeshError, Side, SurfaceEdges};
-use octruss::surface::{LoopWeights, PointBuffers, Rim, VertexState, loop_scheme};
-
 use super::control::ControlForm;
 use super::error::FormError;
 use super::mesh::ClosedMesh;
+use super::moments::Moments;
+use super::polyhedra;
 use super::scheme::Scheme;
 use super::surface::LimitSurface;
 use crate::error::{Error, Result};
-use crate::mesh::Features;
-use crate::refine::rows::{Row, RowBlend, identity};
+use crate::mesh::{Features, Point};
+use crate::refine::Level;
+use crate::surface::{SurfaceMesh, SurfaceScheme};
 
 /// A closed surface of a file, with the creases and corners that lie on it.
 #[derive(Clone, Debug)]
@@ -25,9 +24,6 @@ pub struct Enclosure {
     faces: Vec<Vec<u32>>,
     features: Features,
 }
-
-/// Levels that a surface with creases is refined to.
-const LEVELS: usize = 5;
 
 impl Enclosure {
     /// The surface of these faces, corners counter-clockwise from outside, and those of the
@@ -67,6 +63,17 @@ impl Enclosure {
         })
     }
 
+    /// The boundary of a cage.
+    ///
+    /// # Errors
+    /// Those of [`Enclosure::new`], and if sheets hang on the boundary.
+    pub fn of_cage(level: &Level, features: &Features) -> Result<Self> {
+        level.require_bare_boundary()?;
+        let triangles = level.boundary().iter().map(|face| face.to_vec());
+        let quads = level.boundary_quads().iter().map(|face| face.to_vec());
+        Self::new(&triangles.chain(quads).collect::<Vec<_>>(), features)
+    }
+
     /// The surface's own points, out of those of the file.
     pub fn own<P: Copy>(&self, points: &[P]) -> Vec<P> {
         let own = self.vertices.iter();
@@ -79,57 +86,73 @@ impl Enclosure {
         !self.features.creases.is_empty() || !self.features.corners.is_empty()
     }
 
-    /// The limit surface, which must have no creases or corners.
+    /// The scheme whose exact forms the surface's facets have, if there is one: with creases or corners
+    /// there is none.
+    pub fn exact_scheme(&self, scheme: SurfaceScheme) -> Option<Scheme> {
+        match self.has_features() {
+            true => None,
+            false => Scheme::of_surface(scheme),
+        }
+    }
+
+    /// The limit surface, cut into facets with exact forms.
     ///
     /// # Errors
-    /// If it has, or if the scheme does not take the mesh.
-    pub fn limit(&self, scheme: Scheme) -> Result<LimitSurface<f64>> {
-        if self.has_features() {
-            return Err(
-                Error::new("a surface with creases or corners has no exact form")
-                    .advise("leave the features out, or ask for the volume alone"),
-            );
-        }
-        LimitSurface::new(scheme, &self.mesh).map_err(of_form)
+    /// If the surface has none, or if the scheme does not take the mesh.
+    pub fn limit(&self, scheme: SurfaceScheme) -> Result<LimitSurface<f64>> {
+        let Some(exact) = self.exact_scheme(scheme) else {
+            return Err(match self.has_features() {
+                true => Error::new("a surface with creases or corners has no exact form")
+                    .advise("leave the features out, or ask for the volume and moments alone"),
+                false => Error::new("surfaces of this scheme have no exact form").advise(
+                    "ask for the volume and moments alone, or take loop, loop-warren, \
+                     catmull-clark or doo-sabin",
+                ),
+            });
+        };
+        LimitSurface::new(exact, &self.mesh).map_err(of_form)
     }
 
     /// The volume as one form over the file's vertices, and a second one that it should agree with:
     /// their difference is what it may be wrong by.
     ///
-    /// Without creases and corners both are the exact form. With them the volume of the
-    /// polyhedra of two successive levels is extrapolated; the second form is from the levels before.
+    /// Without creases and corners both are the exact form of the schemes that have one. Otherwise the
+    /// volume of the polyhedra of two successive levels is extrapolated; the second form is from the
+    /// levels before.
     ///
     /// # Errors
-    /// If the scheme does not take the mesh, has no creases, or there are too many control points.
-    pub fn control_forms(&self, scheme: Scheme) -> Result<[ControlForm; 2]> {
-        if !self.has_features() {
+    /// If the scheme does not take the mesh or there are too many control points.
+    pub fn control_forms(&self, scheme: SurfaceScheme) -> Result<[ControlForm; 2]> {
+        if self.exact_scheme(scheme).is_some() {
             let form = ControlForm::of_surface(&self.limit(scheme)?).map_err(of_form)?;
             let form = self.in_file(form);
             return Ok([form.clone(), form]);
         }
-        let weights = match scheme {
-            Scheme::Loop => LoopWeights::Loop,
-            Scheme::LoopWarren => LoopWeights::Warren,
-            _ => {
-                return Err(Error::new("creases are known to Loop's scheme only")
-                    .advise("use --scheme loop or loop-warren"));
-            }
-        };
-        scheme.steps(&self.mesh).map_err(of_form)?;
-        let mut forms = Vec::new();
-        let mut level = Sharp::new(self);
-        for step in 0..LEVELS {
-            level = level.refined(weights)?;
-            if step + 3 >= LEVELS {
-                forms.push(level.form()?);
-            }
+        let origin = vec![[0.0; 3]; self.vertices.len()];
+        let forms = polyhedra::forms(&self.surface_mesh(origin), scheme)?;
+        Ok(forms.map(|form| self.in_file(form)))
+    }
+
+    /// Volume, centroid and inertia by extrapolation, where there is no exact form, and those from the
+    /// levels before, for the surface's own points.
+    ///
+    /// # Errors
+    /// If the scheme does not take the mesh.
+    pub fn extrapolated_moments(
+        &self,
+        scheme: SurfaceScheme,
+        own: &[Point],
+    ) -> Result<[Moments; 2]> {
+        polyhedra::moments(&self.surface_mesh(own.to_vec()), scheme)
+    }
+
+    fn surface_mesh(&self, points: Vec<Point>) -> SurfaceMesh {
+        SurfaceMesh {
+            points,
+            faces: self.faces.clone(),
+            features: self.features.clone(),
+            notes: Vec::new(),
         }
-        let [first, second, third] = &forms[..] else {
-            return Err(Error::new("a surface is refined at least three times"));
-        };
-        let before = ControlForm::extrapolated(first, second);
-        let last = ControlForm::extrapolated(second, third);
-        Ok([self.in_file(last), self.in_file(before)])
     }
 
     fn in_file(&self, mut form: ControlForm) -> ControlForm {
@@ -142,86 +165,4 @@ impl Enclosure {
 
 fn of_form(error: FormError) -> Error {
     Error::new(error.to_string())
-}
-
-fn of_mesh(error: MeshError) -> Error {
-    Error::new(error.to_string())
-}
-
-/// A triangle surface with features at one level, its vertices as rows over the control points.
-struct Sharp {
-    indices: Vec<u32>,
-    features: Features,
-    rows: Vec<Row>,
-}
-
-impl Sharp {
-    fn new(surface: &Enclosure) -> Self {
-        let count = u32::try_from(surface.vertices.len()).unwrap_or(u32::MAX);
-        Self {
-            indices: surface.faces.concat(),
-            features: surface.features.clone(),
-            rows: identity(count),
-        }
-    }
-
-    /// Core's own refinement over rows.
-    fn refined(&self, weights: LoopWeights) -> Result<Self> {
-        let corners = u32::try_from(self.indices.len()).unwrap_or(u32::MAX);
-        let offsets = (0..=corners).step_by(3).collect::<Vec<_>>();
-        let mesh = ControlMesh {
-            vertex_count: u32::try_from(self.rows.len()).unwrap_or(u32::MAX),
-            offsets: &offsets,
-            indices: &self.indices,
-            creases: &self.features.creases,
-            corners: &self.features.corners,
-            odd: false,
-        };
-        let mut sides = vec![Side::default(); self.indices.len()];
-        let edges = SurfaceEdges::new(&mesh, &mut sides).map_err(of_mesh)?;
-        let counts =
-            loop_scheme::split_counts(&mesh, &edges).ok_or_else(|| of_mesh(MeshError::TooLarge))?;
-        let mut offsets = vec![0; counts.faces + 1];
-        let mut next = Self {
-            indices: vec![0; counts.indices],
-            features: Features {
-                creases: vec![[0; 2]; counts.creases],
-                corners: vec![0; counts.corners],
-                ..Features::default()
-            },
-            rows: Vec::new(),
-        };
-        let buffers = ControlMeshBuffers {
-            offsets: &mut offsets,
-            indices: &mut next.indices,
-            creases: &mut next.features.creases,
-            corners: &mut next.features.corners,
-        };
-        let refined = loop_scheme::split(&mesh, &edges, buffers).map_err(of_mesh)?;
-        let count = refined.vertex_count as usize;
-        let mut blend = RowBlend;
-        let zero = blend.zero();
-        next.rows = vec![Row::new(); count];
-        let buffers = PointBuffers {
-            out: &mut next.rows,
-            sums: &mut vec![zero; count],
-            states: &mut vec![VertexState::default(); count],
-        };
-        let (rim, rows) = (Rim::Spline, &self.rows);
-        loop_scheme::refine_points(&mut blend, &mesh, &edges, weights, rim, rows, buffers)
-            .map_err(of_mesh)?;
-        Ok(next)
-    }
-
-    fn form(&self) -> Result<ControlForm> {
-        let triangles = self.indices.as_chunks::<3>().0;
-        let wide = |row: &Row| {
-            let entries = row.iter();
-            entries
-                .map(|(point, weight)| (*point as usize, *weight))
-                .collect()
-        };
-        let rows = self.rows.iter().map(wide).collect::<Vec<Vec<_>>>();
-        ControlForm::of_triangles(triangles, &rows).map_err(of_form)
-    }
 }

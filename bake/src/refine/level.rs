@@ -142,16 +142,8 @@ impl Level {
         }
     }
 
-    /// Error if the boundary has quadrilaterals, or sheets hang on it: its shape then is not its own
-    /// business alone.
+    /// Error if sheets hang on the boundary: its shape then is not its own business alone.
     pub fn require_bare_boundary(&self) -> Result<()> {
-        if !self.boundary_quads().is_empty() {
-            return Err(Error::new(format!(
-                "the boundary has {}: the volume that the triangle/quadrilateral scheme encloses has no form",
-                count(self.boundary_quads().len(), "quadrilateral", "quadrilaterals")
-            ))
-            .advise("mesh the volume with tetrahedra alone, or give a surface of quadrilaterals to catmull-clark"));
-        }
         let triangles = self.boundary().as_flattened().iter();
         let quads = self.boundary_quads().as_flattened().iter();
         let boundary: HashSet<u32> = triangles.chain(quads).copied().collect();

@@ -20,6 +20,7 @@ pub use level::{Level, Refinement};
 pub use real::RealBlend;
 
 use crate::error::Result;
+use crate::surface::SurfaceScheme;
 use clap::ValueEnum;
 use octruss::solid::tet_oct::Boundary;
 use octruss::surface::LoopWeights;
@@ -50,6 +51,16 @@ impl BoundaryRule {
             Self::TriQuad => Boundary::Surface(LoopWeights::TriQuad),
             Self::Interior => Boundary::Interior,
             Self::Fixed => Boundary::Fixed,
+        }
+    }
+
+    /// The surface scheme that the boundary follows, if it follows one.
+    pub fn surface_scheme(self) -> Option<SurfaceScheme> {
+        match self {
+            Self::Loop => Some(SurfaceScheme::Loop),
+            Self::LoopWarren => Some(SurfaceScheme::LoopWarren),
+            Self::TriQuad => Some(SurfaceScheme::TriQuad),
+            Self::Interior | Self::Fixed => None,
         }
     }
 

@@ -4,10 +4,10 @@ use super::Options;
 use super::format::Format;
 use crate::error::{Error, Result};
 use crate::forms::solid::Enclosure;
-use crate::forms::{ControlForm, DeviceForm, DeviceModes, MOST_MODES, ModeVolume, Scheme, region};
+use crate::forms::{ControlForm, DeviceForm, DeviceModes, MOST_MODES, ModeVolume, region};
 use crate::mesh::{Point, SolidMesh};
 use crate::pack::writer::Section;
-use crate::refine::{BoundaryRule, Level};
+use crate::refine::Level;
 use crate::surface::{SurfaceMesh, SurfaceScheme};
 use octruss::bundle::{SECTION_VOLUME, SECTION_VOLUME_MODES};
 use std::fmt;
@@ -230,21 +230,11 @@ pub(super) fn of_cage(
             region::forms(cage, rules, label)
         }
         Region::Whole => {
-            let scheme = match options.boundary {
-                BoundaryRule::Loop => Scheme::Loop,
-                BoundaryRule::LoopWarren => Scheme::LoopWarren,
-                _ => {
-                    return Err(Error::new(
-                        "the enclosed volume of this boundary rule has no form",
-                    )
-                    .advise("bake --volume with --boundary loop or loop-warren"));
-                }
-            };
-            let level = Level::new(cage)?;
-            level.require_bare_boundary()?;
-            let faces = level.boundary().iter().map(|face| face.to_vec());
-            let surface = Enclosure::new(&faces.collect::<Vec<_>>(), &cage.features)?;
-            surface.control_forms(scheme)
+            let scheme = options.boundary.surface_scheme().ok_or_else(|| {
+                Error::new("the enclosed volume of this boundary rule has no form")
+                    .advise("bake --volume with --boundary loop, loop-warren or tri-quad")
+            })?;
+            Enclosure::of_cage(&Level::new(cage)?, &cage.features)?.control_forms(scheme)
         }
     }
 }
@@ -260,21 +250,5 @@ pub(super) fn of_surface(
             Error::new("a surface has no labelled regions").advise("give --volume without a label")
         );
     }
-    let scheme = match scheme {
-        SurfaceScheme::Loop => Scheme::Loop,
-        SurfaceScheme::LoopWarren => Scheme::LoopWarren,
-        SurfaceScheme::CatmullClark => Scheme::CatmullClark,
-        SurfaceScheme::DooSabin => Scheme::DooSabin,
-        SurfaceScheme::Sqrt3
-        | SurfaceScheme::Butterfly
-        | SurfaceScheme::ButterflyModified
-        | SurfaceScheme::TriQuad => {
-            return Err(
-                Error::new("the volume that surfaces of this scheme enclose has no form").advise(
-                    "leave --volume out, or take loop, loop-warren, catmull-clark or doo-sabin",
-                ),
-            );
-        }
-    };
     Enclosure::new(&mesh.faces, &mesh.features)?.control_forms(scheme)
 }

@@ -21,6 +21,7 @@ pub(crate) use row::{RowBuilder, apply};
 use super::error::FormError;
 use super::exact::Field;
 use super::mesh::{ClosedMesh, HalfEdge};
+use crate::surface::SurfaceScheme;
 
 /// A surface scheme with a trilinear form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, clap::ValueEnum)]
@@ -59,6 +60,21 @@ impl Scheme {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|scheme| scheme.name() == name)
+    }
+
+    /// The form scheme of a surface scheme, if it has exact forms.
+    #[must_use]
+    pub fn of_surface(scheme: SurfaceScheme) -> Option<Self> {
+        match scheme {
+            SurfaceScheme::Loop => Some(Self::Loop),
+            SurfaceScheme::LoopWarren => Some(Self::LoopWarren),
+            SurfaceScheme::CatmullClark => Some(Self::CatmullClark),
+            SurfaceScheme::DooSabin => Some(Self::DooSabin),
+            SurfaceScheme::Sqrt3
+            | SurfaceScheme::Butterfly
+            | SurfaceScheme::ButterflyModified
+            | SurfaceScheme::TriQuad => None,
+        }
     }
 
     /// The valence of a regular facet.
