@@ -121,6 +121,8 @@ pub const VOLUME_MODES: u32 = 10;
 pub const MIXED: u32 = 11;
 /// Kind of a case: refine a mixed solid in core's own arenas of a fixed size.
 pub const MIXED_OWNED: u32 = 12;
+/// Kind of a case: find a centroid by modes.
+pub const CENTROID_MODES: u32 = 25;
 /// Kind of a case: open a bundle and carry scalar channels through its table.
 pub const APPLY_SCALARS: u32 = 16;
 /// Kind of a case: refine channels and hand on labels of a solid in slices.
@@ -193,6 +195,7 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         SQRT3_STEPS => sqrt3::run_steps(words, results),
         VOLUME => volume::run(words, memory.space(), results),
         VOLUME_MODES => volume::run_modes(words, memory.space(), results),
+        CENTROID_MODES => volume::run_centroid(words, memory.space(), results),
         MIXED => mixed::run(words, memory, results),
         MIXED_OWNED => mixed::run_owned(words, memory.space(), results),
         UPDATE => update::run(words, memory.space(), results),

@@ -83,6 +83,65 @@ impl ModesCase {
     }
 }
 
+/// One random case of a centroid by modes.
+#[derive(Clone, Debug)]
+pub struct CentroidCase {
+    /// Coefficients of the moments of x, y and z, one after the other.
+    pub coefficients: Vec<i32>,
+    /// An amplitude for each mode.
+    pub amplitudes: Vec<i32>,
+    /// The volume; not above zero in one of sixteen cases.
+    pub volume: i64,
+    /// The shift of a moment.
+    pub shift: i32,
+}
+
+impl CentroidCase {
+    /// The case of a seed, with up to 9 modes; volumes and shifts are anywhere, at the ends of their
+    /// range, or such that the quotient is about as large as a coordinate.
+    pub fn new(seed: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let modes = rng.random_range(0..=9_usize);
+        let count = (modes + 1) * (modes + 2) * (modes + 3) * (modes + 4) / 24;
+        let mut coefficients = Vec::new();
+        for _ in 0..3 {
+            let mut left = (1_i64 << 30) - 1;
+            coefficients.extend((0..count).map(|_| {
+                let portion = match rng.random_range(0..100) {
+                    0 => left,
+                    _ => rng.random_range(0..=left / 32),
+                };
+                left -= portion;
+                let sign = if rng.random_bool(0.5) { 1 } else { -1 };
+                i32::try_from(sign * portion).unwrap_or(i32::MIN)
+            }));
+        }
+        let amplitude = |rng: &mut ChaCha8Rng| match seed % 3 {
+            0 => rng.random(),
+            1 => [i32::MIN, i32::MAX, 0][rng.random_range(0..3)],
+            _ => rng.random_range(-(1 << 30)..=1 << 30),
+        };
+        let amplitudes = (0..modes).map(|_| amplitude(&mut rng)).collect();
+        let volume = match rng.random_range(0..16) {
+            0 => [0, -1, i64::MIN][rng.random_range(0..3)],
+            1 => [1, i64::MAX][rng.random_range(0..2)],
+            2..6 => rng.random_range(1..=i64::MAX),
+            _ => rng.random_range(1_i64 << 55..1 << 61),
+        };
+        let shift = match rng.random_range(0..8) {
+            0 => [-60, 0, 60][rng.random_range(0..3)],
+            1 => rng.random_range(-60..=60),
+            _ => rng.random_range(14..=34),
+        };
+        Self {
+            coefficients,
+            amplitudes,
+            volume,
+            shift,
+        }
+    }
+}
+
 fn push_taps(rng: &mut ChaCha8Rng, table: &mut VolumeTable, others: u16) {
     let mut taps = BTreeMap::new();
     if others >= 3 {

@@ -191,3 +191,52 @@ pub fn modes(count: usize, coefficients: &[i32], amplitudes: &[i32]) -> (i64, Ve
     let fits = |value: &BigInt| value.to_i64().expect("below 2^63");
     (fits(&total), derivatives[1..].iter().map(fits).collect())
 }
+
+/// The way from the base to the centroid, clamped to 32 bits, and how many axes were: the quartic
+/// polynomials of the three moments from their definition with its roundings, over the volume.
+///
+/// A quotient is rounded as the exact fraction `moment * 2^shift / volume`: twice that plus one,
+/// halved, each time by floor division.
+pub fn centroid(
+    coefficients: &[i32],
+    amplitudes: &[i32],
+    volume: i64,
+    shift: i32,
+) -> ([i32; 3], u32) {
+    let count = amplitudes.len();
+    let q = |index: usize| match index {
+        0 => BigInt::from(1 << 30),
+        _ => BigInt::from(amplitudes[index - 1]),
+    };
+    let mut next = coefficients.iter();
+    let mut saturated = 0;
+    let limits = [BigInt::from(i32::MIN), BigInt::from(i32::MAX)];
+    let offset = [0, 1, 2].map(|_| {
+        let mut total = BigInt::zero();
+        for a in 0..=count {
+            let mut space = BigInt::zero();
+            for b in a..=count {
+                let mut plane = BigInt::zero();
+                for c in b..=count {
+                    let terms = (c..=count).zip(&mut next);
+                    let line: BigInt = terms.map(|(d, coefficient)| q(d) * *coefficient).sum();
+                    plane += q(c) * round(&line, 31);
+                }
+                space += q(b) * round(&plane, 31);
+            }
+            total += q(a) * round(&space, 31);
+        }
+        let power = |exponent: i32| BigInt::from(1) << exponent.max(0).unsigned_abs();
+        let numerator: BigInt = total * power(shift);
+        let denominator: BigInt = BigInt::from(volume) * power(-shift);
+        let doubled: BigInt = numerator * 2_u32;
+        let exact = (&doubled % &denominator).is_zero();
+        // BigInt divides toward zero.
+        let below = u32::from(doubled.is_negative() && !exact);
+        let halves = doubled / denominator - below;
+        let rounded: BigInt = (halves + 1_u32) >> 1;
+        let fits = clamp(rounded, &limits, &mut saturated);
+        i32::try_from(fits).expect("the limits fit")
+    });
+    (offset, saturated)
+}

@@ -4,9 +4,10 @@
 //! `OCTRUSS_CASES` sets how many cases; the default keeps the suite quick.
 
 use octruss::enclosed::{
-    Enclosed, EnclosedError, VolumeForm, VolumeFormParts, VolumeModes, WEIGHT_LIMIT,
+    Centroid, CentroidModes, Enclosed, EnclosedError, VolumeForm, VolumeFormParts, VolumeModes,
+    WEIGHT_LIMIT,
 };
-use octruss_host_tests::random_volume::{ModesCase, VolumeCase};
+use octruss_host_tests::random_volume::{CentroidCase, ModesCase, VolumeCase};
 use octruss_host_tests::reference_volume::{self, VolumeTable};
 use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
@@ -182,6 +183,47 @@ fn modes_equal_the_reference() {
     );
     let heavy = VolumeModes::new_checked(0, &[1 << 30]).map(|_| ());
     assert_eq!(heavy, Err(EnclosedError::Weights { place: 0 }));
+}
+
+#[test]
+fn centroids_equal_the_reference() {
+    let mut refused = 0;
+    for seed in 0..case_count() {
+        let case = CentroidCase::new(seed);
+        let modes = u16::try_from(case.amplitudes.len()).unwrap();
+        let form = CentroidModes::new_checked(modes, 7, case.shift, &case.coefficients).unwrap();
+        assert_eq!(form.base(), 7);
+        let got = form.offset(&case.amplitudes, case.volume);
+        if case.volume <= 0 {
+            refused += 1;
+            assert_eq!(got, Err(EnclosedError::Volume), "seed {seed}");
+            continue;
+        }
+        let (offset, saturated) = reference_volume::centroid(
+            &case.coefficients,
+            &case.amplitudes,
+            case.volume,
+            case.shift,
+        );
+        assert_eq!(got, Ok(Centroid { offset, saturated }), "seed {seed}");
+    }
+    assert!(refused > 0);
+    // 16 modes have (20 choose 4) = 4845 coefficients for each axis.
+    assert!(CentroidModes::new_checked(16, 0, 0, &[0; 3 * 4845]).is_ok());
+    let of = |coefficients: &[i32], shift| {
+        CentroidModes::new_checked(0, 0, shift, coefficients).map(|_| ())
+    };
+    let (needed, given) = (3, 2);
+    let short = Err(EnclosedError::Length { needed, given });
+    assert_eq!(of(&[0; 2], 0), short);
+    assert_eq!(of(&[0; 3], 61), Err(EnclosedError::Shift));
+    assert_eq!(of(&[0; 3], -61), Err(EnclosedError::Shift));
+    let heavy = Err(EnclosedError::Weights { place: 1 });
+    assert_eq!(of(&[0, 1 << 30, 0], 0), heavy);
+    let form = CentroidModes::new_checked(0, 0, 0, &[0; 3]).unwrap();
+    let (needed, given) = (0, 1);
+    let long = Err(EnclosedError::Length { needed, given });
+    assert_eq!(form.offset(&[0], 1), long);
 }
 
 /// What would break a proof is refused.

@@ -119,6 +119,10 @@ pub const SECTION_RIG: u32 = 13;
 /// [`Section::kind`]: damped springs between the control points.
 pub const SECTION_SPRINGS: u32 = 14;
 
+/// [`Section::kind`]: the centroid of an enclosed solid by modes; [`Section::stage`] as in
+/// [`SECTION_VOLUME`].
+pub const SECTION_CENTROID_MODES: u32 = 15;
+
 /// What the section of normals starts with: 16 bytes. The fans follow, `u16` each.
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]

@@ -7,9 +7,9 @@ use zerocopy::FromBytes;
 use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
-    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_MODEL_POINTS,
-    SECTION_NORMALS, SECTION_REST_CAGE, SECTION_RIG, SECTION_SPRINGS, SECTION_VOLUME,
-    SECTION_VOLUME_MODES, Section, VERSION,
+    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_CENTROID_MODES,
+    SECTION_MODEL_POINTS, SECTION_NORMALS, SECTION_REST_CAGE, SECTION_RIG, SECTION_SPRINGS,
+    SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
@@ -17,7 +17,7 @@ use crate::control::rig::Rig;
 use crate::control::springs::Springs;
 use crate::coord::Coordinate;
 use crate::deform::{CompactTable, Normals, Table};
-use crate::enclosed::{VolumeForm, VolumeModes};
+use crate::enclosed::{CentroidModes, VolumeForm, VolumeModes};
 
 /// A bundle that has been proved sound, still where it lay.
 #[derive(Clone, Copy, Debug)]
@@ -248,6 +248,25 @@ impl<'a> Bundle<'a> {
         Springs::from_section(bytes, self.rest_cage.len())
             .map(Some)
             .map_err(BundleError::Springs)
+    }
+
+    /// The centroid of a region, named as in [`Bundle::volume_form`], for combinations of the modes that
+    /// were baked; `None` if there is none. It is proved sound here.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bundle::volume_form`].
+    pub fn centroid_modes<C: Coordinate>(
+        &self,
+        region: u32,
+    ) -> Result<Option<CentroidModes<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_CENTROID_MODES, region)? else {
+            return Ok(None);
+        };
+        CentroidModes::from_section(bytes, self.rest_cage.len())
+            .map(Some)
+            .map_err(BundleError::Volume)
     }
 
     /// The faces round the model's points, for their normals; `None` if they were not baked. They are proved

@@ -20,6 +20,8 @@ pub enum EnclosedError {
         /// The pair, or the number of pairs if it is the sum of all.
         place: u32,
     },
+    /// A volume that is not above zero: the solid has no centroid.
+    Volume,
     /// A slice has another length than the form needs.
     Length {
         /// Length needed.
@@ -45,6 +47,7 @@ impl fmt::Display for EnclosedError {
             Self::Weights { place } => {
                 write!(f, "the volume form's weights are too large at {place}")
             }
+            Self::Volume => f.write_str("the volume is not above zero: there is no centroid"),
             Self::Length { needed, given } => {
                 write!(
                     f,

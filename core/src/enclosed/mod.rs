@@ -7,6 +7,7 @@
 //! * [`VolumeForm`]: the volume of a region from any pose, and its derivative by each control point.
 //! * [`VolumeModes`]: the same volume for poses that are combinations of a few actuation modes: a
 //!   cubic polynomial in their amplitudes.
+//! * [`CentroidModes`]: the centroid for such poses, from quartic polynomials and that volume.
 //!
 //! # Why moving everything changes nothing
 //!
@@ -27,6 +28,7 @@
 //! 4. The gradient is summed from cross products and weighted sums that were each rounded to 31 bits, and
 //!    is then brought from `n` doublings to its fixed unit with one more rounding.
 
+mod centroid;
 mod check;
 mod error;
 mod evaluate;
@@ -34,7 +36,8 @@ mod form;
 mod modes;
 mod section;
 
+pub use centroid::{Centroid, CentroidModes};
 pub use error::EnclosedError;
 pub use form::{Enclosed, GRADIENT_LIMIT, VolumeForm, VolumeFormParts, WEIGHT_LIMIT};
 pub use modes::{MODE_WEIGHT_LIMIT, VolumeModes};
-pub use section::{VolumeModesRecord, VolumeRecord};
+pub use section::{CentroidModesRecord, VolumeModesRecord, VolumeRecord};

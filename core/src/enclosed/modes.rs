@@ -172,7 +172,7 @@ impl<'a> VolumeModes<'a> {
 
 /// The amplitude of an index: one for index 0, then the modes'.
 #[inline(always)]
-fn amplitude(amplitudes: &[i32], index: usize) -> i32 {
+pub(super) fn amplitude(amplitudes: &[i32], index: usize) -> i32 {
     match index.checked_sub(1) {
         None => ONE,
         Some(mode) => amplitudes.get(mode).copied().unwrap_or_default(),
@@ -195,7 +195,7 @@ fn without_constant<A>(
 
 /// The sum over `c` of coefficient times amplitude, rounded.
 #[inline(never)]
-fn line(row: &[i32], second: usize, amplitudes: &[i32]) -> i32 {
+pub(super) fn line(row: &[i32], second: usize, amplitudes: &[i32]) -> i32 {
     let (constant, row, amplitudes) = without_constant(row, second, amplitudes, |all, first| {
         all.get(first..).unwrap_or_default()
     });
@@ -225,12 +225,12 @@ fn add(gradient: &mut [i64], index: usize, value: i64) {
 }
 
 #[inline(always)]
-fn product(a: i32, b: i32) -> i64 {
+pub(super) fn product(a: i32, b: i32) -> i64 {
     i64::from(a).wrapping_mul(i64::from(b))
 }
 
 /// A sum rounded by `2^31`: it fits 32 bits because the coefficients' magnitudes add up to
 /// less than `2^30`.
-fn narrow(sum: i64) -> i32 {
+pub(super) fn narrow(sum: i64) -> i32 {
     i32::try_from(round_shift(sum, SHIFT)).unwrap_or_default()
 }

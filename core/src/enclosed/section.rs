@@ -1,10 +1,11 @@
-//! A volume form, and a volume by modes, as they lie in a bundle.
+//! A volume form, and a volume and a centroid by modes, as they lie in a bundle.
 
 use core::mem::size_of;
 
 use zerocopy::byteorder::little_endian::{I32, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
+use super::centroid::CentroidModes;
 use super::error::EnclosedError;
 use super::form::{VolumeForm, VolumeFormParts};
 use super::modes::VolumeModes;
@@ -104,6 +105,45 @@ impl<'a> VolumeModes<'a> {
         let coefficients = <[i32]>::ref_from_bytes(rest).map_err(|_| layout)?;
         Self::new_checked(modes, coefficients)
             .map(|modes| modes.with_exponent(record.exponent.get()))
+    }
+}
+
+/// The first 16 bytes of a section of a centroid by modes. Behind it lie the coefficients (`i32`) of x,
+/// y and z.
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
+#[repr(C)]
+pub struct CentroidModesRecord {
+    /// Modes, at most 65 535.
+    pub modes: U32,
+    /// See [`CentroidModes::new_checked`].
+    pub shift: I32,
+    /// The control point that offsets are counted from.
+    pub base: U32,
+    /// Zero.
+    pub reserved: U32,
+}
+
+impl<'a> CentroidModes<'a> {
+    /// Opens a section in place, and proves what [`CentroidModes::new_checked`] proves.
+    ///
+    /// # Errors
+    ///
+    /// [`EnclosedError::Layout`] if the bytes are not as long as their record says, start on an address
+    /// that is no multiple of 4, or the record's reserved field is not zero; [`EnclosedError::Points`] if
+    /// the base is not among so many control points; else those of [`CentroidModes::new_checked`].
+    pub fn from_section(bytes: &'a [u8], control_points: usize) -> Result<Self, EnclosedError> {
+        let layout = EnclosedError::Layout { place: 0 };
+        let (record, rest) = CentroidModesRecord::ref_from_prefix(bytes).map_err(|_| layout)?;
+        let modes = u16::try_from(record.modes.get()).map_err(|_| layout)?;
+        if record.reserved.get() != 0 {
+            return Err(layout);
+        }
+        let base = u16::try_from(record.base.get()).map_err(|_| EnclosedError::Points)?;
+        if usize::from(base) >= control_points {
+            return Err(EnclosedError::Points);
+        }
+        let coefficients = <[i32]>::ref_from_bytes(rest).map_err(|_| layout)?;
+        Self::new_checked(modes, base, record.shift.get(), coefficients)
     }
 }
 

@@ -1,5 +1,5 @@
-//! The kinds [`VOLUME`](super::VOLUME) and [`VOLUME_MODES`](super::VOLUME_MODES): the enclosed
-//! volume and its gradient.
+//! The kinds [`VOLUME`](super::VOLUME), [`VOLUME_MODES`](super::VOLUME_MODES) and
+//! [`CENTROID_MODES`](super::CENTROID_MODES): the enclosed volume, its gradient, and the centroid.
 //!
 //! # A form over the control points
 //!
@@ -23,8 +23,21 @@
 //! | 1 each | amplitudes, signed |
 //!
 //! The result is the volume alone, then volume and derivatives.
+//!
+//! # A centroid
+//!
+//! | words | what |
+//! | --- | --- |
+//! | 1 | number of modes |
+//! | 1 | number of coefficients |
+//! | 1 | the shift, signed |
+//! | 2 | the volume, signed, the low word first |
+//! | 1 each | coefficients, signed |
+//! | 1 each | amplitudes, signed |
+//!
+//! The result is the offset, then how many of its coordinates were clamped.
 
-use octruss::enclosed::{VolumeForm, VolumeModes};
+use octruss::enclosed::{CentroidModes, VolumeForm, VolumeModes};
 use octruss::mesh::Arena;
 use zerocopy::IntoBytes;
 
@@ -96,6 +109,33 @@ pub(super) fn run_modes<S: Sink>(
     for number in [alone, both].iter().chain(&*derivatives) {
         write_wide(*number, results);
     }
+    Ok(())
+}
+
+/// Runs a case of a centroid.
+pub(super) fn run_centroid<S: Sink>(
+    words: &[u32],
+    space: Space<'_>,
+    results: &mut Results<'_, S>,
+) -> Result<(), Status> {
+    let mut words = Words(words);
+    let modes = words.length()?;
+    let coefficients = words.length()?;
+    let [shift, low, high] = [words.word()?, words.word()?, words.word()?];
+    let coefficients = words.numbers(coefficients)?;
+    let amplitudes = words.numbers(modes)?;
+    words.finish()?;
+
+    let count = u16::try_from(modes).map_err(|_| Status::Malformed)?;
+    let form = CentroidModes::new_checked(count, 0, shift.cast_signed(), coefficients)
+        .map_err(Status::Enclosed)?;
+    let volume = u64::from(high).wrapping_shl(32) | u64::from(low);
+    let centroid = form.offset(amplitudes, volume.cast_signed());
+    let centroid = centroid.map_err(Status::Enclosed)?;
+    space.check()?;
+    results.begin_section(SECTION_VOLUME, 4);
+    results.words(&centroid.offset.map(i32::cast_unsigned));
+    results.words(&[centroid.saturated]);
     Ok(())
 }
 

@@ -68,6 +68,8 @@ pub enum Subject {
     Volume,
     /// Volumes as polynomials in modes, and their derivatives
     VolumeModes,
+    /// Centroids by modes
+    CentroidModes,
     /// Tables updated in part, factored tables, normals of their points
     Update,
     /// Scalar channels through tables of every format
@@ -106,6 +108,7 @@ impl Subject {
             Subject::Mixed => mixed::case(seed),
             Subject::Volume => volume::form(seed),
             Subject::VolumeModes => volume::polynomial(seed),
+            Subject::CentroidModes => volume::centroid(seed),
             Subject::Update => update::case(seed),
             Subject::Scalars => scalars::case(seed),
             Subject::TriQuadSurface => surface::case(Scheme::TriQuadSurface, seed),

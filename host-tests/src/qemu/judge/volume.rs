@@ -1,14 +1,14 @@
 //! The enclosed volume and its gradient.
 
 use octruss_firmware::cases::volume::wide;
-use octruss_firmware::cases::{SECTION_VOLUME, VOLUME, VOLUME_MODES};
+use octruss_firmware::cases::{CENTROID_MODES, SECTION_VOLUME, VOLUME, VOLUME_MODES};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
 
 use super::{Expected, Judged, bits, word};
 use crate::qemu::conformance::Section;
-use crate::random_volume::{ModesCase, VolumeCase};
-use crate::reference_volume::{VolumeTable, modes};
+use crate::random_volume::{CentroidCase, ModesCase, VolumeCase};
+use crate::reference_volume::{self, VolumeTable, modes};
 
 /// Control points of a region.
 const POINTS: u16 = 24;
@@ -64,6 +64,39 @@ pub(super) fn polynomial(seed: u32) -> Judged {
         ..Expected::default()
     };
     judged(VOLUME_MODES, seed, words, expected)
+}
+
+/// A centroid's case of a seed. One of every ten is damaged.
+pub(super) fn centroid(seed: u32) -> Judged {
+    let case = CentroidCase::new(u64::from(seed));
+    let (coefficients, amplitudes) = (&case.coefficients, &case.amplitudes);
+    let mut words = vec![word(amplitudes.len()), word(coefficients.len())];
+    words.push(case.shift.cast_unsigned());
+    words.extend(wide(case.volume));
+    words.extend(coefficients.iter().map(|number| number.cast_unsigned()));
+    words.extend(amplitudes.iter().map(|number| number.cast_unsigned()));
+    if case.volume <= 0 {
+        // Refused: what comes of it is for core on the host to say.
+        let mut refused = Judged::sound(CENTROID_MODES, seed, words, Expected::default());
+        refused.expected = None;
+        return refused;
+    }
+    let (offset, saturated) =
+        reference_volume::centroid(coefficients, amplitudes, case.volume, case.shift);
+    let expected = Expected {
+        coordinates: offset.len(),
+        sections: vec![Section {
+            tag: SECTION_VOLUME,
+            words: offset
+                .map(i32::cast_unsigned)
+                .into_iter()
+                .chain([saturated])
+                .collect(),
+        }],
+        saturated: saturated as usize,
+        ..Expected::default()
+    };
+    judged(CENTROID_MODES, seed, words, expected)
 }
 
 fn judged(kind: u32, seed: u32, words: Vec<u32>, expected: Expected) -> Judged {
