@@ -93,6 +93,9 @@ pub struct Arguments {
     /// that of a motion, in which every frame is the pose of one mode at amplitude one
     #[arg(long, value_name = "MODES", requires = "volume")]
     modes: Option<PathBuf>,
+    /// With --modes: also bake the centroids of those volumes, for at most 16 modes
+    #[arg(long, requires = "modes")]
+    pub centroid: bool,
     /// Also bake the model's faces, from which a device forms the normals of the deformed points
     #[arg(long)]
     pub normals: bool,
@@ -148,6 +151,7 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         unit: arguments.unit.clone(),
         outside: arguments.outside,
         volumes: regions(arguments),
+        centroid: arguments.centroid,
         modes: modes(arguments, cage.points.len(), &|mesh| {
             require_same_cells(&cage, mesh)
         })?,

@@ -30,6 +30,7 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
         fraction_bits: arguments.fraction_bits,
         unit: arguments.unit.clone(),
         volumes: regions(arguments),
+        centroid: arguments.centroid,
         modes: modes(arguments, mesh.points.len(), &|_| {
             Err(Error::new("the modes of a surface are read from a .csv"))
         })?,

@@ -13,11 +13,13 @@
 //! * [`surface`], [`moments`], [`target`]: the volume of a whole mesh and its gradient, centroid and
 //!   inertia, and the nearest mesh that encloses a given volume.
 //! * [`control`], [`device`]: the volume as one form over the control points, and in integers.
-//! * [`modes`]: the volume as a cubic polynomial of a few modes; [`region`]: of the cells with a label.
+//! * [`modes`], [`centroid`]: volume and centroid as polynomials of a few modes; [`region`]: of the
+//!   cells with a label.
 //! * [`polyhedra`]: surfaces without an exact form, by extrapolation.
 //! * [`solid`], [`portrait`]: the surfaces of files, and their picture.
 
 pub mod cache;
+pub mod centroid;
 pub mod control;
 pub mod device;
 pub mod error;
@@ -38,6 +40,7 @@ pub mod solid;
 pub mod surface;
 pub mod target;
 
+pub use centroid::{DeviceCentroid, MOST_CENTROID_MODES, ModeMoments};
 pub use control::ControlForm;
 pub use device::DeviceForm;
 pub use error::FormError;

@@ -52,6 +52,15 @@ impl LimitSurface<f64> {
         Ok(value)
     }
 
+    /// The integrals of x, y and z over the enclosed solid.
+    ///
+    /// # Errors
+    ///
+    /// [`FormError::Points`] if the number of control points is not that of the mesh.
+    pub fn first_moment(&self, points: &[[f64; 3]]) -> Result<[f64; 3], FormError> {
+        self.integrate(points, &|point: [f64; 3]| point.map(|value| value / 4.0))
+    }
+
     /// The integrals over the enclosed solid of homogeneous functions; `functions` gives their
     /// values at a point, each divided by its degree plus 3.
     fn integrate<const N: usize>(

@@ -12,7 +12,7 @@ use super::surface::centred;
 use crate::error::{Error, Result};
 use crate::mesh::Point;
 use crate::refine::RealBlend;
-use crate::refine::rows::{RowBlend, identity};
+use crate::refine::rows::{Row, RowBlend, identity};
 use crate::surface::{RimRule, SurfaceLevel, SurfaceMesh, SurfaceScheme, SurfaceStep};
 use octruss::blend::GuardedBlend;
 
@@ -22,6 +22,8 @@ const FEWEST_LEVELS: usize = 3;
 const MOST_LEVELS: usize = 7;
 /// ...further ones only up to so many faces: of rows over the control points...
 const MOST_FACES_OF_ROWS: usize = 120_000;
+/// ...of rows that positions of many poses are made with...
+const MOST_FACES_OF_MOMENTS: usize = 12_000;
 /// ...and of points.
 const MOST_FACES_OF_POINTS: usize = 400_000;
 
@@ -68,8 +70,8 @@ pub fn forms(mesh: &SurfaceMesh, scheme: SurfaceScheme) -> Result<[ControlForm; 
     let pace = Pace::of(scheme, has_features);
     let columns = u32::try_from(mesh.points.len()).unwrap_or(u32::MAX);
     let rows = identity(columns);
-    let of_level = |level: &SurfaceLevel, rows: &[crate::refine::rows::Row]| {
-        let wide = |row: &crate::refine::rows::Row| {
+    let of_level = |level: &SurfaceLevel, rows: &[Row]| {
+        let wide = |row: &Row| {
             let entries = row.iter();
             entries
                 .map(|(point, weight)| (*point as usize, *weight))
@@ -91,6 +93,55 @@ pub fn forms(mesh: &SurfaceMesh, scheme: SurfaceScheme) -> Result<[ControlForm; 
         ControlForm::combined(coarser, finer, |a, b| pace.limit(a, b))
     };
     Ok([extrapolated(&second, &third), extrapolated(&first, &second)])
+}
+
+/// A surface at one level, its vertices as rows over the control points.
+#[derive(Clone, Debug)]
+pub struct Polyhedron {
+    faces: Vec<Vec<u32>>,
+    rows: Vec<Row>,
+    ratio: f64,
+}
+
+impl Polyhedron {
+    /// The integrals of x, y and z over the solid, for positions of all control points, extrapolated from
+    /// those of the level before.
+    pub fn limit_of_first_moments(&self, coarser: &Self, points: &[Point]) -> Point {
+        let (coarse, fine) = (coarser.first_moment(points), self.first_moment(points));
+        [0, 1, 2].map(|k| (self.ratio * fine[k] - coarse[k]) / (self.ratio - 1.0))
+    }
+
+    fn first_moment(&self, points: &[Point]) -> Point {
+        let place = |row: &Row| {
+            row.iter().fold([0.0; 3], |sum: Point, (point, weight)| {
+                let own = points[*point as usize];
+                [0, 1, 2].map(|k| sum[k] + weight * own[k])
+            })
+        };
+        let own: Vec<Point> = self.rows.iter().map(place).collect();
+        let [_, x, y, z, ..] = polyhedral_integrals(self.faces.iter().map(Vec::as_slice), &own);
+        [x, y, z]
+    }
+}
+
+/// The last three levels.
+///
+/// # Errors
+/// If the scheme does not take the mesh.
+pub fn levels(mesh: &SurfaceMesh, scheme: SurfaceScheme) -> Result<[Polyhedron; 3]> {
+    let features = &mesh.features;
+    let has_features = !features.creases.is_empty() || !features.corners.is_empty();
+    let pace = Pace::of(scheme, has_features);
+    let rows = identity(u32::try_from(mesh.points.len()).unwrap_or(u32::MAX));
+    let of_level = |level: &SurfaceLevel, rows: &[Row]| {
+        Ok(Polyhedron {
+            faces: level.faces().map(<[u32]>::to_vec).collect(),
+            rows: rows.to_vec(),
+            ratio: pace.ratio,
+        })
+    };
+    let most = MOST_FACES_OF_MOMENTS;
+    last_three(mesh, scheme, pace, most, RowBlend, rows, of_level)
 }
 
 /// Volume, centroid and inertia of what a closed mesh's limit surface encloses, and those from the

@@ -1,7 +1,7 @@
-//! The volume of the cells with a label, under the smooth map.
+//! The volume of the cells with a label, or of all cells, under the smooth map.
 //!
-//! Only a boundary that follows a surface scheme has an exact form. A region's border inside the
-//! cage follows the solid's scheme, so its volume is that of the polyhedra of successive levels,
+//! Only a boundary that follows a surface scheme with a form has an exact volume. A region's border inside
+//! the cage follows the solid's scheme, so its volume is that of the polyhedra of successive levels,
 //! extrapolated: their error falls by four a level.
 
 use super::control::ControlForm;
@@ -30,30 +30,27 @@ pub struct Rules<'a> {
     pub boundary: BoundaryRule,
 }
 
-/// The volume of the cells with this label as one form over the control points, and a second one
-/// from the levels before that it should agree with.
+/// The border of a region at one level: a closed polyhedron.
+#[derive(Clone, Debug)]
+pub struct Border {
+    /// Counter-clockwise from outside; vertices are places in `rows`.
+    pub triangles: Vec<[u32; 3]>,
+    /// The vertices as sums over the control points.
+    pub rows: Vec<Vec<(usize, f64)>>,
+}
+
+/// The volume of the cells with this label, or of all cells, as one form over the control points, and a
+/// second one from the levels before that it should agree with.
 ///
 /// # Errors
 /// If no cell has the label, or the form depends on too many control points.
-pub fn forms(cage: &SolidMesh, rules: Rules<'_>, label: i32) -> Result<[ControlForm; 2]> {
-    let mut labels = cage.labels.clone();
-    if !labels.iter().any(|own| own == label) {
-        return Err(Error::new(format!("no cell has the label {label}")).advise(
-            "labels are the numbers of physical groups or references; `octruss info` lists them",
-        ));
+pub fn forms(cage: &SolidMesh, rules: Rules<'_>, label: Option<i32>) -> Result<[ControlForm; 2]> {
+    let mut forms = Vec::new();
+    for border in borders(cage, rules, label)? {
+        let form = ControlForm::of_triangles(&border.triangles, &border.rows);
+        forms.push(form.map_err(|error| Error::new(error.to_string()))?);
     }
-    let mut level = Level::of_scheme(cage, rules.scheme, rules.diagonals)?;
-    let control_points = level.vertex_count;
-    let (mut matrices, mut forms) = (Vec::new(), Vec::new());
-    while matrices.len() < FEWEST_LEVELS || level.cells.len() * CHILDREN <= MOST_CELLS {
-        let mut refinement = Refinement::new(&level, rules.boundary.to_core())?;
-        matrices.push(refinement.values(&mut RowBlend, &identity(level.vertex_count))?);
-        level = refinement.split()?;
-        labels = labels.refined();
-        let own: Vec<bool> = labels.iter().map(|own| own == label).collect();
-        forms.push(form(&level.cells, &own, &matrices, control_points)?);
-    }
-    let [.., first, second, third] = &forms[..] else {
+    let [first, second, third] = &forms[..] else {
         return Err(Error::new("a region is refined at least three times"));
     };
     Ok([
@@ -62,13 +59,40 @@ pub fn forms(cage: &SolidMesh, rules: Rules<'_>, label: i32) -> Result<[ControlF
     ])
 }
 
-/// The volume of a polyhedron of cells: one determinant for each triangle of its border.
-fn form(
-    cells: &Cells,
-    own: &[bool],
-    matrices: &[Vec<Row>],
-    control_points: u32,
-) -> Result<ControlForm> {
+/// The borders of the cells with this label, or of all cells, at the last three levels.
+///
+/// # Errors
+/// If no cell has the label, or the cage cannot be refined.
+pub fn borders(cage: &SolidMesh, rules: Rules<'_>, label: Option<i32>) -> Result<Vec<Border>> {
+    let is_own = |own: i32| label.is_none_or(|label| own == label);
+    let mut labels = cage.labels.clone();
+    if let Some(label) = label.filter(|_| !labels.iter().any(is_own)) {
+        return Err(Error::new(format!("no cell has the label {label}")).advise(
+            "labels are the numbers of physical groups or references; `octruss info` lists them",
+        ));
+    }
+    let mut level = Level::of_scheme(cage, rules.scheme, rules.diagonals)?;
+    let control_points = level.vertex_count;
+    let (mut matrices, mut borders) = (Vec::new(), Vec::new());
+    while matrices.len() < FEWEST_LEVELS || level.cells.len() * CHILDREN <= MOST_CELLS {
+        let mut refinement = Refinement::new(&level, rules.boundary.to_core())?;
+        matrices.push(refinement.values(&mut RowBlend, &identity(level.vertex_count))?);
+        level = refinement.split()?;
+        labels = labels.refined();
+        let own: Vec<bool> = match label {
+            None => vec![true; level.cells.len()],
+            Some(_) => labels.iter().map(is_own).collect(),
+        };
+        borders.push(border_of(&level.cells, &own, &matrices, control_points));
+        if borders.len() > 3 {
+            borders.remove(0);
+        }
+    }
+    Ok(borders)
+}
+
+/// The border of these cells, with its vertices over the control points.
+fn border_of(cells: &Cells, own: &[bool], matrices: &[Vec<Row>], control_points: u32) -> Border {
     let border = border(cells, own);
     let mut vertices: Vec<u32> = border.as_flattened().to_vec();
     vertices.sort_unstable();
@@ -76,13 +100,14 @@ fn form(
     let wanted: Vec<Row> = vertices.iter().map(|vertex| vec![(*vertex, 1.0)]).collect();
     let rows = compose(&wanted, matrices, control_points);
     let wide = |(point, weight): &(u32, f64)| (*point as usize, *weight);
-    let rows: Vec<Vec<(usize, f64)>> = rows
-        .iter()
-        .map(|row| row.iter().map(wide).collect())
-        .collect();
     let local = |vertex: u32| vertices.binary_search(&vertex).unwrap_or_default() as u32;
-    let triangles: Vec<[u32; 3]> = border.iter().map(|face| face.map(local)).collect();
-    ControlForm::of_triangles(&triangles, &rows).map_err(|error| Error::new(error.to_string()))
+    Border {
+        triangles: border.iter().map(|face| face.map(local)).collect(),
+        rows: rows
+            .iter()
+            .map(|row| row.iter().map(wide).collect())
+            .collect(),
+    }
 }
 
 /// The faces that one of these cells has and no other, counter-clockwise from outside.

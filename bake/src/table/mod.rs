@@ -18,7 +18,7 @@ mod volume;
 pub use crate::pack::normals::NormalsReport;
 pub use choice::{FormatReport, Request, TableFormat};
 pub use report::{LargestRow, OutsideReport, Report, TapsReport, WeightsReport};
-pub use volume::{ModesReport, Region, VolumeReport};
+pub use volume::{CentroidReport, ModesReport, Region, VolumeReport};
 
 use crate::bundle::{self, Contents, LONGEST_UNIT};
 use crate::check::{self, Volumes};
@@ -71,6 +71,8 @@ pub struct Options {
     pub volumes: Vec<Region>,
     /// Modes that those volumes are also baked for, as polynomials: each the pose at amplitude one.
     pub modes: Vec<Vec<Point>>,
+    /// Also bake the centroids for those modes.
+    pub centroid: bool,
     /// Also bake the faces of the model, for the normals of its points: each the points round a face, counter-
     /// clockwise from outside. None by default.
     pub faces: Option<Vec<Vec<u32>>>,
@@ -94,6 +96,7 @@ impl Default for Options {
             outside: Outside::Error,
             volumes: Vec::new(),
             modes: Vec::new(),
+            centroid: false,
             faces: None,
             request: Request::default(),
             random_poses: 4,
@@ -170,12 +173,16 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
     let wanted = volume::Wanted {
         regions: &options.volumes,
         modes: &options.modes,
+        centroid: options.centroid,
         points: &cage.points,
         rest: &rest_cage,
         format,
     };
     let (of_volumes, volumes) = wanted
-        .sections(|region| volume::of_cage(cage, options, region))
+        .sections(
+            |region| volume::of_cage(cage, options, region),
+            |region, combined| volume::moments_of_cage(cage, options, region, combined),
+        )
         .map_err(of_cage)?;
     sections.extend(of_volumes);
     let normals = match &options.faces {

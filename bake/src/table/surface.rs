@@ -37,6 +37,8 @@ pub struct SurfaceOptions {
     pub volumes: Vec<Region>,
     /// Modes that they are also baked for: each the pose at amplitude one.
     pub modes: Vec<Vec<Point>>,
+    /// Also bake the centroids for those modes.
+    pub centroid: bool,
     /// Also bake the faces of the refined surface, for the normals of its points.
     pub normals: bool,
     /// Which format is taken.
@@ -154,12 +156,15 @@ pub fn bake_surface(
     let wanted = volume::Wanted {
         regions: &options.volumes,
         modes: &options.modes,
+        centroid: options.centroid,
         points: &mesh.points,
         rest: &rest_cage,
         format,
     };
-    let (of_volumes, volumes) =
-        wanted.sections(|region| volume::of_surface(mesh, options.scheme, region))?;
+    let (of_volumes, volumes) = wanted.sections(
+        |region| volume::of_surface(mesh, options.scheme, region),
+        |_, combined| volume::moments_of_surface(mesh, options.scheme, combined),
+    )?;
     let mut sections = [packed.sections.clone(), of_volumes].concat();
     let mut report_of_normals = None;
     if options.normals {

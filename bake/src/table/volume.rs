@@ -3,13 +3,18 @@
 use super::Options;
 use super::format::Format;
 use crate::error::{Error, Result};
+use crate::forms::centroid::{Combined, of_border};
+use crate::forms::region::Border;
 use crate::forms::solid::Enclosure;
-use crate::forms::{ControlForm, DeviceForm, DeviceModes, MOST_MODES, ModeVolume, region};
+use crate::forms::{
+    ControlForm, DeviceCentroid, DeviceForm, DeviceModes, MOST_CENTROID_MODES, MOST_MODES,
+    ModeMoments, ModeVolume, polyhedra, region,
+};
 use crate::mesh::{Point, SolidMesh};
 use crate::pack::writer::Section;
 use crate::refine::Level;
 use crate::surface::{SurfaceMesh, SurfaceScheme};
-use octruss::bundle::{SECTION_VOLUME, SECTION_VOLUME_MODES};
+use octruss::bundle::{SECTION_CENTROID_MODES, SECTION_VOLUME, SECTION_VOLUME_MODES};
 use std::fmt;
 
 /// What a volume is enclosed by.
@@ -66,6 +71,26 @@ pub struct ModesReport {
     pub bytes: usize,
     /// How far the device's result can be from the polynomial's, for amplitudes from -1 to 1.
     pub error_bound: f64,
+    /// The centroid, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centroid: Option<CentroidReport>,
+}
+
+/// What there is to say about a centroid by modes.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct CentroidReport {
+    /// The control point that the device's offsets are counted from.
+    pub base: usize,
+    /// The centroid at rest, in the unit.
+    pub at_rest: [f64; 3],
+    /// Coefficients of all axes.
+    pub coefficients: usize,
+    /// Bytes of the section.
+    pub bytes: usize,
+    /// How far the one of the level before is from it at rest, in the unit.
+    pub error_estimate: f64,
+    /// How far the device's result can be from the polynomials' at rest, in the unit.
+    pub error_bound: f64,
 }
 
 impl VolumeReport {
@@ -97,6 +122,24 @@ impl VolumeReport {
             f,
             "            in {} modes: {} coefficients, {} bytes, off by at most {:.1e} for amplitudes to 1",
             modes.modes, modes.coefficients, modes.bytes, modes.error_bound
+        )?;
+        let Some(centroid) = &modes.centroid else {
+            return Ok(());
+        };
+        let [x, y, z] = centroid.at_rest;
+        writeln!(
+            f,
+            "            centroid {x:.6} {y:.6} {z:.6}{} at rest (estimated error {:.1e}), from control point {}; \
+             {} coefficients, {} bytes, off by at most {:.1e} there",
+            match unit {
+                "" => String::new(),
+                unit => format!(" {unit}"),
+            },
+            centroid.error_estimate,
+            centroid.base,
+            centroid.coefficients,
+            centroid.bytes,
+            centroid.error_bound
         )
     }
 }
@@ -107,6 +150,8 @@ pub(super) struct Wanted<'a> {
     pub regions: &'a [Region],
     /// The poses of modes at amplitude one.
     pub modes: &'a [Vec<Point>],
+    /// Whether the centroids are baked for them too.
+    pub centroid: bool,
     /// The control points at rest.
     pub points: &'a [Point],
     /// Their bits.
@@ -116,10 +161,12 @@ pub(super) struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    /// The sections of all volumes; `forms` makes a region's form, and one that it should agree with.
+    /// The sections of all volumes; `forms` makes a region's form, and one that it should agree with,
+    /// and `moments` its first moments, likewise.
     pub fn sections(
         &self,
         forms: impl Fn(Region) -> Result<[ControlForm; 2]>,
+        moments: impl Fn(Region, &Combined) -> Result<[ModeMoments; 2]>,
     ) -> Result<(Vec<Section>, Vec<VolumeReport>)> {
         self.check_modes()?;
         let (mut sections, mut reports) = (Vec::new(), Vec::new());
@@ -131,8 +178,19 @@ impl Wanted<'_> {
             let (section, mut report) = self.whole(*region, &forms)?;
             sections.push(section);
             if !self.modes.is_empty() {
-                let (section, of_modes) = self.by_modes(*region, &forms[0]);
+                let volume = ModeVolume::new(&forms[0], self.points, self.modes);
+                let device = DeviceModes::new(&volume, self.format.fraction_bits);
+                let (section, mut of_modes) = self.by_modes(*region, &device);
                 sections.push(section);
+                if self.centroid {
+                    let base = forms[0].points.first().copied().unwrap_or_default();
+                    let combined = Combined::new(self.points, self.modes, base);
+                    let moments = moments(*region, &combined)?;
+                    let (section, centroid) =
+                        self.centroid(*region, &moments, (&device, report.volume))?;
+                    sections.push(section);
+                    of_modes.centroid = Some(centroid);
+                }
                 report.modes = Some(of_modes);
             }
             reports.push(report);
@@ -148,6 +206,18 @@ impl Wanted<'_> {
             )));
         }
         let points = self.points.len();
+        if self.centroid && self.modes.is_empty() {
+            return Err(
+                Error::new("a centroid is baked for modes, and there are none")
+                    .advise("name them with --modes"),
+            );
+        }
+        if self.centroid && self.modes.len() > MOST_CENTROID_MODES {
+            return Err(Error::new(format!(
+                "{} modes are given; a centroid is baked for at most {MOST_CENTROID_MODES}",
+                self.modes.len()
+            )));
+        }
         match self.modes.iter().position(|pose| pose.len() != points) {
             None => Ok(()),
             Some(mode) => Err(Error::new(format!(
@@ -190,15 +260,14 @@ impl Wanted<'_> {
     }
 
     /// The form's volume as a polynomial of modes.
-    fn by_modes(&self, region: Region, form: &ControlForm) -> (Section, ModesReport) {
-        let volume = ModeVolume::new(form, self.points, self.modes);
-        let device = DeviceModes::new(&volume, self.format.fraction_bits);
+    fn by_modes(&self, region: Region, device: &DeviceModes) -> (Section, ModesReport) {
         let bytes = device.section();
         let report = ModesReport {
             modes: device.modes,
             coefficients: device.coefficients.len(),
             bytes: bytes.len(),
             error_bound: device.volume_bound(1.0) * self.cube(),
+            centroid: None,
         };
         let section = Section {
             kind: SECTION_VOLUME_MODES,
@@ -206,6 +275,46 @@ impl Wanted<'_> {
             bytes,
         };
         (section, report)
+    }
+
+    /// The first moments as polynomials of modes. A moment that is off by `e` and a volume that is off by `v`
+    /// make the quotient off by `(e + |offset| v) / (volume - v)`, and it is rounded by a half.
+    fn centroid(
+        &self,
+        region: Region,
+        [moments, before]: &[ModeMoments; 2],
+        (modes, volume): (&DeviceModes, f64),
+    ) -> Result<(Section, CentroidReport)> {
+        if volume <= 0.0 {
+            return Err(Error::new("the volume at rest is not above zero")
+                .advise("leave --centroid out, or turn the faces of the surface round"));
+        }
+        let device = DeviceCentroid::new(moments, self.format.fraction_bits, modes);
+        let bytes = device.section();
+        let offset =
+            |moments: &ModeMoments| moments.at(&vec![0.0; moments.modes]).map(|m| m / volume);
+        let (own, other) = (offset(moments), offset(before));
+        let origin = self.points.get(moments.base).copied().unwrap_or_default();
+        let place = 0.5_f64.powi(self.format.fraction_bits as i32);
+        let largest = own.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        let off = modes.volume_bound(0.0) * self.cube();
+        let moment = device.moment_bound(0.0) * self.cube() * place;
+        let gap = |k: usize| (own[k] - other[k]).abs();
+        let report = CentroidReport {
+            base: moments.base,
+            at_rest: [0, 1, 2].map(|k| origin[k] + own[k]),
+            coefficients: device.coefficients.len(),
+            bytes: bytes.len(),
+            error_estimate: (0..3).map(gap).fold(0.0, f64::max),
+            error_bound: (moment + largest * off) / (volume - off).max(f64::MIN_POSITIVE)
+                + place / 2.0,
+        };
+        let section = Section {
+            kind: SECTION_CENTROID_MODES,
+            stage: region.number(),
+            bytes,
+        };
+        Ok((section, report))
     }
 
     /// A cube of the coordinates' last place, in cubes of the unit.
@@ -221,14 +330,7 @@ pub(super) fn of_cage(
     region: Region,
 ) -> Result<[ControlForm; 2]> {
     match region {
-        Region::Label(label) => {
-            let rules = region::Rules {
-                scheme: options.scheme,
-                diagonals: options.diagonals.as_ref(),
-                boundary: options.boundary,
-            };
-            region::forms(cage, rules, label)
-        }
+        Region::Label(label) => region::forms(cage, rules(options), Some(label)),
         Region::Whole => {
             let scheme = options.boundary.surface_scheme().ok_or_else(|| {
                 Error::new("the enclosed volume of this boundary rule has no form")
@@ -237,6 +339,49 @@ pub(super) fn of_cage(
             Enclosure::of_cage(&Level::new(cage)?, &cage.features)?.control_forms(scheme)
         }
     }
+}
+
+/// The first moments of a cage's region by modes, and ones that they should agree with.
+pub(super) fn moments_of_cage(
+    cage: &SolidMesh,
+    options: &Options,
+    region: Region,
+    combined: &Combined,
+) -> Result<[ModeMoments; 2]> {
+    let label = match region {
+        Region::Whole => None,
+        Region::Label(label) => Some(label),
+    };
+    let borders = region::borders(cage, rules(options), label)?;
+    extrapolated(&borders, combined, <[Point]>::to_vec)
+}
+
+fn rules(options: &Options) -> region::Rules<'_> {
+    region::Rules {
+        scheme: options.scheme,
+        diagonals: options.diagonals.as_ref(),
+        boundary: options.boundary,
+    }
+}
+
+/// The limits of the moments of three successive polyhedra, of which each has a quarter of the error of the
+/// one before; the second from the levels before. `own` takes the surface's points out of all.
+fn extrapolated(
+    borders: &[Border],
+    combined: &Combined,
+    own: impl Fn(&[Point]) -> Vec<Point>,
+) -> Result<[ModeMoments; 2]> {
+    let [first, second, third] = borders else {
+        return Err(Error::new("a region is refined at least three times"));
+    };
+    let limit = |coarser: &Border, finer: &Border| {
+        combined.moments(|points| {
+            let own = own(points);
+            let (coarse, fine) = (of_border(coarser, &own), of_border(finer, &own));
+            [0, 1, 2].map(|k| (4.0 * fine[k] - coarse[k]) / 3.0)
+        })
+    };
+    Ok([limit(second, third), limit(first, second)])
 }
 
 /// The form of what a control mesh's limit surface encloses, and one that it should agree with.
@@ -251,4 +396,28 @@ pub(super) fn of_surface(
         );
     }
     Enclosure::new(&mesh.faces, &mesh.features)?.control_forms(scheme)
+}
+
+/// The first moments by modes of what a control mesh's limit surface encloses, and ones that they should
+/// agree with.
+pub(super) fn moments_of_surface(
+    mesh: &SurfaceMesh,
+    scheme: SurfaceScheme,
+    combined: &Combined,
+) -> Result<[ModeMoments; 2]> {
+    let surface = Enclosure::new(&mesh.faces, &mesh.features)?;
+    if surface.exact_scheme(scheme).is_some() {
+        let limit = surface.limit(scheme)?;
+        // One number of points for the mesh and all poses: it was checked.
+        let moments = combined.moments(|points| {
+            let own = surface.own(points);
+            limit.first_moment(&own).unwrap_or_default()
+        });
+        return Ok([moments.clone(), moments]);
+    }
+    let [first, second, third] = polyhedra::levels(mesh, scheme)?;
+    let limit = |coarser: &polyhedra::Polyhedron, finer: &polyhedra::Polyhedron| {
+        combined.moments(|points| finer.limit_of_first_moments(coarser, points))
+    };
+    Ok([limit(&second, &third), limit(&first, &second)])
 }

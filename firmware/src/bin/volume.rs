@@ -86,6 +86,15 @@ fn modes(counter: &mut InstructionCounter, bundle: &Bundle<'_>) {
     if volume != both {
         refuse("the two calls give two volumes")
     }
+    let Ok(Some(centroid)) = bundle.centroid_modes::<i32>(0) else {
+        refuse("volume.oct holds no centroid")
+    };
+    let volume = volume.unwrap_or_default();
+    let (found, counted) = counter.count(|| centroid.offset(amplitudes, volume));
+    figure("centroid by modes", counted);
+    if found.is_err() {
+        refuse("there is no centroid")
+    }
 }
 
 /// Says why nothing can be measured and ends the image.

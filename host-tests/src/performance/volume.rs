@@ -1,4 +1,4 @@
-//! The enclosed volume: the form over all control points, and the polynomial of sixteen modes.
+//! The enclosed volume: the form over all control points, and the polynomial of sixteen modes; the centroid.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -15,11 +15,12 @@ use super::input::Failure;
 const MODES: usize = 16;
 
 /// What the image `volume` reports, with the words of the table.
-const LINES: [(&str, &str); 4] = [
+const LINES: [(&str, &str); 5] = [
     ("volume", "form: volume"),
     ("volume and gradient", "form: volume and gradient"),
     ("volume by modes", "modes: volume"),
     ("volume and gradient by modes", "modes: volume and gradient"),
+    ("centroid by modes", "modes: centroid, given the volume"),
 ];
 
 /// Bakes the cage's volume and writes `volume.oct` into the directory.
@@ -39,6 +40,7 @@ pub fn make(
     let options = Options {
         volumes: vec![Region::Whole],
         modes: poses.map(|frame| frame.points).collect(),
+        centroid: true,
         random_poses: 0,
         ..Options::default()
     };
@@ -63,25 +65,30 @@ pub fn section(report: &VolumeReport, figures: &[(String, u64)]) -> Result<Strin
     let mut text = String::from(
         "\n## Enclosed volume\n\n\
          The volume inside the finger's smooth boundary, as a form over its control points and as a cubic\n\
-         polynomial of sixteen modes; instructions of whole calls on the emulated Cortex-M4. Errors are\n\
+         polynomial of sixteen modes, and its centroid as three quartic ones; instructions of whole calls on the emulated Cortex-M4. Errors are\n\
          bounds of what a device can be off by, as parts of the volume: of the form for poses as large as the cage at\n\
          rest, of the polynomial for amplitudes to one.\n\n\
          | call | terms | bytes | error at most | instructions |\n| --- | --- | --- | --- | --- |\n",
     );
-    let rows = [
-        (report.taps, report.bytes, report.error_bound),
-        (modes.coefficients, modes.bytes, modes.error_bound),
-    ];
-    for (index, (name, words)) in LINES.into_iter().enumerate() {
+    let centroid = modes.centroid.as_ref().ok_or("no centroid was baked")?;
+    let volume = report.volume.abs();
+    let part = |bound: f64| format!("{:.1e}", bound / volume);
+    let form = (report.taps, report.bytes, part(report.error_bound));
+    let polynomial = (modes.coefficients, modes.bytes, part(modes.error_bound));
+    let moments = (
+        centroid.coefficients,
+        centroid.bytes,
+        format!("{:.1e} mm at rest", centroid.error_bound),
+    );
+    let rows = [&form, &form, &polynomial, &polynomial, &moments];
+    for ((name, words), (terms, bytes, bound)) in LINES.into_iter().zip(rows) {
         let (_, instructions) = figures
             .iter()
             .find(|(found, _)| found == name)
             .ok_or("the image `volume` does not report all figures")?;
-        let (terms, bytes, bound) = rows[index / 2];
-        let part = bound / report.volume.abs();
         writeln!(
             text,
-            "| {words} | {terms} | {bytes} | {part:.1e} | {instructions} |"
+            "| {words} | {terms} | {bytes} | {bound} | {instructions} |"
         )?;
     }
     Ok(text)
