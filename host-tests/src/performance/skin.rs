@@ -54,6 +54,7 @@ pub fn make(directory: &Path, mesh_file: &Path, motion_file: &Path) -> Result<Sk
         unit: "mm".to_owned(),
         volumes: Vec::new(),
         modes: Vec::new(),
+        centroid: false,
         normals: false,
         request: Request {
             format: Some(TableFormat::Q30),
