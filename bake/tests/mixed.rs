@@ -492,3 +492,33 @@ fn the_finger_is_the_same_in_every_format() {
     assert!(bundle(&model("finger-mixed-22.msh"), "old.oct", None) == new);
     assert!(bundle(&vtu, "vtu.oct", Some(&features)) == new);
 }
+
+/// A block of all shapes whose edges are creases and whose corners are kept stays a box: what is on a side
+/// stays on it, exactly, since weights add up to one and coordinates are small whole numbers.
+#[test]
+fn flat_sides_with_sharp_edges_stay_flat() {
+    let features = model("slices/block-features.txt");
+    let cage = model("slices/block.msh");
+    let mesh = octruss_bake::read::solid_with_features(&cage, Some(&features)).unwrap();
+    let (level, points) = refined(&mesh, 2, BoundaryRule::TriQuad);
+    let size = [4.0, 2.0, 4.0];
+    for point in &points {
+        for (coordinate, size) in point.iter().zip(size) {
+            assert!((-1e-12..=size + 1e-12).contains(coordinate), "{point:?}");
+        }
+    }
+    let boundary = level.boundary().as_flattened().iter();
+    let mut boundary: Vec<u32> = boundary
+        .chain(level.boundary_quads().as_flattened())
+        .copied()
+        .collect();
+    boundary.sort_unstable();
+    boundary.dedup();
+    // A grid of 16 by 8 by 16 cells has that many vertices outside.
+    assert_eq!(boundary.len(), 17 * 9 * 17 - 15 * 7 * 15);
+    for vertex in boundary {
+        let point = points[vertex as usize];
+        let is_on = |k: usize| point[k].abs() < 1e-12 || (point[k] - size[k]).abs() < 1e-12;
+        assert!((0..3).any(is_on), "{point:?}");
+    }
+}

@@ -171,10 +171,21 @@ pub fn surface_clones<const D: usize>(mesh: &Mesh, points: &[[i32; D]]) -> [Clon
         .iter()
         .flat_map(|face| cycle_edges(face))
         .collect();
+    let mut along: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    for &[a, b] in &mesh.creases {
+        along.entry(a).or_default().insert(b);
+        along.entry(b).or_default().insert(a);
+    }
+    let is_sharp = |vertex: u32| {
+        mesh.corners.contains(&vertex) || along.get(&vertex).is_some_and(|ends| ends.len() > 1)
+    };
     let mut ends: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for edge in of_triangles.intersection(&of_quads) {
-        ends.entry(edge[0]).or_default().push(edge[1]);
-        ends.entry(edge[1]).or_default().push(edge[0]);
+        for (own, other) in [(edge[0], edge[1]), (edge[1], edge[0])] {
+            if !is_sharp(own) {
+                ends.entry(own).or_default().push(other);
+            }
+        }
     }
     [1.0, -1.0].map(|sign| {
         (0..mesh.vertex_count)

@@ -99,7 +99,7 @@ pub fn tri_quad(mesh: &Polygons, border: Border) -> TriQuad {
             corners: mesh.corners.clone(),
             odd: mesh.odd,
         },
-        across: across(mesh),
+        across: across(mesh, border),
         masks,
     }
 }
@@ -157,14 +157,19 @@ fn averaged(vertex: u32, child: &[u32], positions: &BTreeMap<u32, Row>) -> Row {
     Row::sum(&terms, 8.0)
 }
 
-/// By vertex, the other ends of the edges on which a triangle and a quad lie.
-fn across(mesh: &Polygons) -> Vec<Vec<u32>> {
+/// By vertex, the other ends of the edges on which a triangle and a quad lie; none at vertices that
+/// follow a crease, the rim or a corner.
+fn across(mesh: &Polygons, border: Border) -> Vec<Vec<u32>> {
     let mut across = vec![Vec::new(); mesh.vertex_count as usize];
+    let kinds = mesh.kinds(border);
     for ([a, b], on) in mesh.edges() {
         let has = |count: usize| on.iter().any(|face| mesh.faces[*face].len() == count);
         if has(3) && has(4) {
-            across[a as usize].push(b);
-            across[b as usize].push(a);
+            for (own, other) in [(a, b), (b, a)] {
+                if matches!(kinds[own as usize], Kind::Smooth) {
+                    across[own as usize].push(other);
+                }
+            }
         }
     }
     across

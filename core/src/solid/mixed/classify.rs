@@ -42,6 +42,11 @@ impl VertexState {
         self.on_triangle || self.on_quad_edge || self.on_quad_middle
     }
 
+    /// Whether an old vertex follows neither a crease nor stays.
+    pub(super) fn is_smooth(&self) -> bool {
+        !matches!(self.rule, Rule::Linear | Rule::Crease)
+    }
+
     /// Whether a triangle and a quadrilateral of the surface share the edge whose midpoint this is.
     pub(super) fn is_mixed_edge(&self) -> bool {
         self.on_triangle && self.on_quad_edge

@@ -94,11 +94,17 @@ fn gather_all<B: GuardedBlend>(
     unzip.cells(blend, solid, numbering)?;
     gather.cells(solid, numbering, &unzip)?;
 
-    // The surface has an unzip of its own, from the original vertices.
+    // The surface has an unzip of its own, from the original vertices. Vertices of creases and corners
+    // have no part in it: it would pull one side of a crease toward the other.
     let mut unzip = Unzip::new(blend, gather.points, distortions);
-    for (ends, middle) in all_edges(numbering) {
+    for ([a, b], middle) in all_edges(numbering) {
         if gather.states.get(index(middle))?.is_mixed_edge() {
-            unzip.surface_edge(blend, ends)?;
+            for ends in [[a, b], [b, a]] {
+                let [own, _] = ends;
+                if gather.states.get(index(own))?.is_smooth() {
+                    unzip.surface_edge(blend, ends)?;
+                }
+            }
         }
     }
     gather.surface(solid, numbering, &unzip)?;

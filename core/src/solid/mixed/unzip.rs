@@ -254,11 +254,8 @@ impl<'a, B: GuardedBlend> Unzip<'a, B> {
     }
 
     /// Gathers one edge that triangles and quadrilaterals of the surface share: (5.3.3).
-    pub(super) fn surface_edge(&mut self, blend: &B, [a, b]: [u32; 2]) -> Option<()> {
-        for (own, other) in [(a, b), (b, a)] {
-            self.add(blend, 0, own, [(-1, own), (1, other)])?;
-        }
-        Some(())
+    pub(super) fn surface_edge(&mut self, blend: &B, [own, other]: [u32; 2]) -> Option<()> {
+        self.add(blend, 0, own, [(-1, own), (1, other)])
     }
 
     /// Adds one pair at a vertex.

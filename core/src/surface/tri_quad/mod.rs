@@ -6,7 +6,7 @@
 //! 1. *Unzip*: every vertex gets two clones, one for its triangles and one for its quads. At a vertex
 //!    where `m` edges are shared by a triangle and a quad, the triangles' clone is the vertex moved by
 //!    `1/24 (mean of the other ends of these edges - vertex)`, the quads' is moved as far the other
-//!    way. At any other vertex both are the vertex.
+//!    way. At any other vertex, and at those that follow a crease or stay, both are the vertex.
 //! 2. *Linear split*: a triangle into four, a quad into four, from the clones of its kind.
 //! 3. *Averaging and collapse*: every new face averages its corners (a triangle by `1/4 3/8 3/8`, a
 //!    quad evenly), and what the new faces at a vertex say is averaged with the weights 1/6 for
@@ -20,8 +20,8 @@
 //! * Sharp edges (creases and the rim) and the vertices on them follow the rules of
 //!   [`features`](super::features): midpoints `1/2 1/2`, vertices with two sharp edges
 //!   `1/8 6/8 1/8`, with more than two they stay, with one (a dart) they are smooth; tagged corners
-//!   stay. An edge between a triangle and a quad counts in the unzip whether it is a crease or not,
-//!   as in a mixed solid: both clones of a vertex on a crease follow from the crease alone.
+//!   stay. Vertices on sharp edges, but not darts, and corners are not unzipped, as in a mixed solid:
+//!   what lies across a crease would pull this side toward it, and flat faces would not stay flat.
 //! * Faces of more than four corners are refused
 //!   ([`MeshError::NotATriangleOrQuad`](crate::mesh::MeshError)): the paper says nothing of them.
 //!

@@ -78,7 +78,7 @@ pub fn refine_points<'a, B: GuardedBlend>(
         points,
         distortions: &mut *distortions,
     };
-    unzip.gather(blend, mesh, edges)?;
+    unzip.gather(blend, mesh, edges, states)?;
     let mut gather = Gather {
         blend: &*blend,
         sums: &mut *sums,

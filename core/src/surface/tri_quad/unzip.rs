@@ -2,6 +2,7 @@
 
 use crate::blend::{Distortion, GuardedBlend};
 use crate::mesh::{ControlMesh, MeshError, SurfaceEdges, index};
+use crate::surface::features::{Rule, VertexState};
 use crate::surface::tri_quad_weights::UNZIP_DENOMINATOR;
 
 /// The two kinds of faces, as places of [`COLLAPSE`](crate::surface::tri_quad_weights::COLLAPSE).
@@ -38,12 +39,13 @@ pub(super) struct Unzip<'a, B: GuardedBlend> {
 }
 
 impl<B: GuardedBlend> Unzip<'_, B> {
-    /// Gathers every edge that a triangle and a quad share.
+    /// Gathers every edge that a triangle and a quad share, at its ends that follow the smooth rule.
     pub(super) fn gather(
         &mut self,
         blend: &B,
         mesh: &ControlMesh<'_>,
         edges: &SurfaceEdges<'_>,
+        states: &[VertexState],
     ) -> Result<(), MeshError> {
         let corners = |face: u32| mesh.face(index(face)).len();
         for sides in edges.iter() {
@@ -52,9 +54,13 @@ impl<B: GuardedBlend> Unzip<'_, B> {
                 continue;
             };
             let [a, b] = side.ends;
-            self.add(blend, a, b)
-                .and_then(|()| self.add(blend, b, a))
-                .ok_or(MeshError::OtherNumbering)?;
+            for (own, other) in [(a, b), (b, a)] {
+                let state = states.get(index(own)).ok_or(MeshError::OtherNumbering)?;
+                if state.rule == Rule::Smooth {
+                    self.add(blend, own, other)
+                        .ok_or(MeshError::OtherNumbering)?;
+                }
+            }
         }
         Ok(())
     }
