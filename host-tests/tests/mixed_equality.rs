@@ -231,7 +231,7 @@ fn by_tet_oct(mesh: &Mesh, boundary: Boundary, points: &[[i32; 3]]) -> (Vec<[i32
 fn random_solids_have_every_kind_of_pair() {
     let mut kinds: BTreeMap<(Class, usize, Class, usize), usize> = BTreeMap::new();
     let (mut open, mut mixed_edges, mut two_levels, mut saturating) = (0, 0, 0, 0);
-    for seed in 0..300 {
+    for seed in 0..600 {
         let case = MixedCase::new(seed, 14);
         let all: Vec<_> = case.mesh.cells().iter().flat_map(faces).collect();
         for one in &all {
