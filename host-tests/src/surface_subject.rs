@@ -5,6 +5,9 @@ use octruss::blend::{Blend, FixedBlend, GuardedBlend};
 use octruss::mesh::{
     ControlMesh, ControlMeshBuffers, FaceOrder, Fans, MeshError, Side, SurfaceEdges,
 };
+use octruss::surface::limit_normals::{
+    NormalBuffers, TangentBlend, TangentMasks, face_normals, limit_normals,
+};
 use octruss::surface::{
     LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark,
     doo_sabin, loop_scheme, sqrt3, tri_quad,
@@ -331,6 +334,37 @@ pub fn limit<B: Blend>(
         }
     };
     Ok(limit.to_vec())
+}
+
+/// Limit normals: of every corner of every face, for Doo-Sabin of every face.
+pub fn normals<T: TangentBlend>(
+    blend: &mut T,
+    scheme: Scheme,
+    border: Border,
+    mesh: &Polygons,
+    points: &[T::Point],
+) -> Result<Vec<T::Normal>, MeshError> {
+    let lists = Lists::of(mesh);
+    let mesh = lists.mesh();
+    let mut out = vec![blend.no_normal(); mesh.indices.len()];
+    let masks = match scheme {
+        Scheme::DooSabin => {
+            out.truncate(mesh.face_count());
+            return face_normals(blend, &mesh, points, &mut out).map(|normals| normals.to_vec());
+        }
+        Scheme::CatmullClark => TangentMasks::CatmullClark,
+        _ => TangentMasks::Loop,
+    };
+    let mut sides = vec![Side::default(); mesh.indices.len()];
+    let edges = SurfaceEdges::new(&mesh, &mut sides)?;
+    let count = mesh.vertex_count as usize + edges.count() as usize;
+    let buffers = NormalBuffers {
+        out: &mut out,
+        done: &mut vec![true; mesh.indices.len()],
+        states: &mut vec![VertexState::default(); count],
+    };
+    let rim = rim(border);
+    limit_normals(blend, &mesh, &edges, masks, rim, points, buffers).map(|normals| normals.to_vec())
 }
 
 /// An adaptive mesh with memory on the host.

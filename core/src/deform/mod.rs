@@ -39,6 +39,7 @@ pub use compact::{CompactTable, Displacement, Displacements, displacement_shift}
 pub(crate) use groups::Groups;
 pub(crate) use kernel::{EXCLUDED_DISPLACEMENT_SHIFT, MOST_DISPLACEMENT_SHIFT};
 pub use moved::Updated;
+pub(crate) use normals::unit as unit_vector;
 pub use normals::{MOST_CORNERS, MOST_EDGE_SHIFT, NORMAL_BITS, Normals};
 pub use table::{ApplyError, Table};
 pub(crate) use table::{Starts, Weights};

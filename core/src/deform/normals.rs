@@ -229,8 +229,8 @@ fn add_fan(
 /// Bits of the greatest coordinate of a shortened sum.
 const SHORT_BITS: u32 = 16;
 
-/// The unit vector along a sum, zero for zero.
-fn unit(sum: [i64; 3]) -> [i16; 3] {
+/// The unit vector along a sum of at most 62 bits, zero for zero.
+pub(crate) fn unit(sum: [i64; 3]) -> [i16; 3] {
     let mut greatest = 0_u64;
     for coordinate in sum {
         greatest = greatest.max(coordinate.unsigned_abs());

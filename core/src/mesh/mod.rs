@@ -63,6 +63,7 @@ pub(crate) use numbering::require;
 pub use numbering::{Numbering, edge_capacity};
 pub use quad_faces::{QuadDiagonal, QuadFace};
 pub(crate) use quad_faces::{QuadKind, prism_triangles, tetrahedral_triangles};
+pub(crate) use surface_edges::start as start_of_side;
 pub use surface_edges::{Side, SurfaceEdges};
 pub use view::{Solid, SolidBuffers};
 

@@ -13,6 +13,7 @@
 //! * [`sqrt3`]: triangles, three for each, the square root of 3 a step; uniform and adaptive.
 //! * [`tri_quad`]: triangles and quads together, with an unzip where they meet; also the rule of the
 //!   boundary of [`solid::mixed`](crate::solid::mixed).
+//! * [`limit_normals`]: normals of Loop's, Catmull-Clark and Doo-Sabin surfaces in the limit.
 //!
 //! [`features`] says what boundaries, creases and corners follow.
 
@@ -21,6 +22,7 @@ pub mod catmull_clark;
 pub mod doo_sabin;
 pub mod features;
 mod irrational;
+pub mod limit_normals;
 pub mod loop_scheme;
 pub mod loop_weights;
 mod split;

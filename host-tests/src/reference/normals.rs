@@ -31,7 +31,8 @@ fn edge(from: [i32; 3], to: [i32; 3], shift: u32) -> [i128; 3] {
     })
 }
 
-fn unit(sum: [i128; 3]) -> [i16; 3] {
+/// The unit vector along a sum in 14 fraction bits, zero for zero.
+pub fn unit(sum: [i128; 3]) -> [i16; 3] {
     let greatest = sum.iter().map(|c| c.abs()).max().unwrap_or(0);
     if greatest == 0 {
         return [0; 3];

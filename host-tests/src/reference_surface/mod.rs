@@ -17,6 +17,7 @@ mod polygons;
 mod row;
 mod sqrt3;
 mod tri_quad;
+mod tangents;
 
 pub use butterfly::butterfly;
 pub use catmull_clark::{catmull_clark, catmull_clark_limit};
@@ -27,6 +28,7 @@ pub use polygons::{Border, Kind, Polygons, edge, sides};
 pub use row::{Grid, Row, WEIGHT_UNIT};
 pub use sqrt3::{sqrt3, sqrt3_limit};
 pub use tri_quad::{TriQuad, tri_quad};
+pub use tangents::{face_normals, limit_normals};
 
 /// A refined mesh and the mask of each of its vertices.
 #[derive(Clone, Debug, PartialEq)]

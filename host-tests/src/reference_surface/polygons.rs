@@ -105,6 +105,15 @@ impl Polygons {
         found
     }
 
+    /// Whether two faces run along an edge, theirs alone, in the same direction.
+    pub fn has_turned_faces(&self) -> bool {
+        let directed: Vec<(u32, u32)> = self.faces.iter().flat_map(|face| sides(face)).collect();
+        let twice = |a: u32, b: u32| directed.iter().filter(|side| **side == (a, b)).count() == 2;
+        let edges = self.edges().into_iter();
+        let mut pairs = edges.filter(|(_, on)| on.len() == 2).map(|entry| entry.0);
+        pairs.any(|[a, b]| twice(a, b) || twice(b, a))
+    }
+
     /// Whether the faces at a vertex do not all hang together over edges at the vertex.
     pub fn has_two_fans(&self, vertex: u32) -> bool {
         let at: Vec<&Vec<u32>> = self.faces.iter().filter(|f| f.contains(&vertex)).collect();
