@@ -58,6 +58,7 @@
 //! | [`SECTION_RIG`] | see [`rig`]; numbers of 64 bits have their low word first |
 //! | [`SECTION_SPRINGS`] | see [`springs`] |
 //! | [`SECTION_LABELS`] | level, the label of each tetrahedron at that level; then the same of octahedra |
+//! | [`SECTION_LIMIT_NORMALS`] | level, how many are zero, x y z of the limit normal of each corner of each face (Doo-Sabin: of each face) at that level |
 
 pub mod apply;
 pub mod box_spline;
@@ -129,6 +130,8 @@ pub const APPLY_SCALARS: u32 = 16;
 pub const REFINE_DATA: u32 = 17;
 /// Kind of a case: apply a table again where control points moved, with factored tables and normals too.
 pub const UPDATE: u32 = 20;
+/// Kind of a case: refine a control mesh and find its limit normals.
+pub const LIMIT_NORMALS: u32 = 30;
 
 /// Kind of a case: pose a rig.
 pub const RIG: u32 = 40;
@@ -172,6 +175,8 @@ pub const SECTION_SCALARS: u32 = 16;
 pub const SECTION_CHANNELS: u32 = 17;
 /// Tag of a section with the labels of the cells of one shape at a level.
 pub const SECTION_LABELS: u32 = 18;
+/// Tag of a section with limit normals.
+pub const SECTION_LIMIT_NORMALS: u32 = 30;
 
 /// Tag of a section with the joints and control points of a rig, or sines and cosines.
 pub const SECTION_RIG: u32 = 40;
@@ -200,6 +205,7 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         MIXED_OWNED => mixed::run_owned(words, memory.space(), results),
         UPDATE => update::run(words, memory.space(), results),
         APPLY_SCALARS => scalars::run(words, memory.space(), results),
+        LIMIT_NORMALS => surface::run_normals(words, memory, results),
         REFINE_DATA => data::run(words, memory, results),
         RIG => rig::run(words, memory.space(), results),
         TURN => rig::run_turn(words, results),

@@ -1,4 +1,5 @@
-//! The kind [`SURFACE`](super::SURFACE): refine a control mesh some levels.
+//! The kinds [`SURFACE`](super::SURFACE) and [`LIMIT_NORMALS`](super::LIMIT_NORMALS): refine a control mesh some
+//! levels.
 //!
 //! | words | what |
 //! | --- | --- |
@@ -15,11 +16,15 @@
 //!
 //! The results are, for each level from 1 on, the faces and the points of that level, and then the
 //! limit positions: of the last level's vertices, for Doo-Sabin of its faces. The butterflies go
-//! through their vertices and have none of their own, and `tri-quad` has no limit masks.
+//! through their vertices and have none of their own, and `tri-quad` has no limit masks. Of the kind `LIMIT_NORMALS`
+//! follow the limit normals of the last level, for Loop's, Catmull-Clark and Doo-Sabin surfaces.
 
 use octruss::blend::{Blend, FixedBlend, GuardedBlend};
 use octruss::mesh::{
     Arena, ControlMesh, ControlMeshBuffers, FaceOrder, Fans, MeshError, Side, SurfaceEdges,
+};
+use octruss::surface::limit_normals::{
+    FixedTangents, NormalBuffers, TangentMasks, face_normals, limit_normals,
 };
 use octruss::surface::{
     LoopWeights, PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark,
@@ -29,7 +34,7 @@ use octruss::surface::{
 use super::results::{Results, Sink, Status};
 use super::solid::{LEVELS_AT_MOST, TOO_LARGE, length};
 use super::space::{Memory, Space};
-use super::{SECTION_FACES, SECTION_LIMIT, SECTION_POINTS, Words, summary};
+use super::{SECTION_FACES, SECTION_LIMIT, SECTION_LIMIT_NORMALS, SECTION_POINTS, Words, summary};
 
 /// Bytes for what a level hands on to the next one, faces and points; the rest of the memory is
 /// what a level needs for itself.
@@ -37,6 +42,8 @@ const KEPT_BYTES: usize = 44 * 1024;
 
 /// Values are raw bits.
 type Values = FixedBlend<i32, 3>;
+/// So are those that normals are made of.
+type Tangents = FixedTangents<i32>;
 
 #[derive(Clone, Copy)]
 enum Scheme {
@@ -91,9 +98,27 @@ pub(super) fn read_mesh<'a>(
     Ok((mesh, words.points(vertices)?))
 }
 
-/// Runs a case.
+/// Runs a case of points and limit positions.
 pub(super) fn run<S: Sink>(
     words: &[u32],
+    memory: &mut Memory,
+    results: &mut Results<'_, S>,
+) -> Result<(), Status> {
+    run_to_end(words, false, memory, results)
+}
+
+/// Runs a case of limit normals.
+pub(super) fn run_normals<S: Sink>(
+    words: &[u32],
+    memory: &mut Memory,
+    results: &mut Results<'_, S>,
+) -> Result<(), Status> {
+    run_to_end(words, true, memory, results)
+}
+
+fn run_to_end<S: Sink>(
+    words: &[u32],
+    wants_normals: bool,
     memory: &mut Memory,
     results: &mut Results<'_, S>,
 ) -> Result<(), Status> {
@@ -151,6 +176,14 @@ pub(super) fn run<S: Sink>(
         let limit = limit(&mut blend, scheme, rim, mesh, points, &mut scratch)?;
         scratch.check()?;
         results.section(SECTION_LIMIT, &[levels, blend.saturated()], limit);
+    }
+    if wants_normals {
+        let mut scratch = spare.rest();
+        let mut tangents = Tangents::new();
+        let normals = normals(&mut tangents, scheme, rim, mesh, points, &mut scratch)?;
+        scratch.check()?;
+        let words = [levels, tangents.zeros()];
+        results.section(SECTION_LIMIT_NORMALS, &words, normals);
     }
     Ok(())
 }
@@ -385,6 +418,47 @@ fn limit<'s>(
         }
     };
     done.map(|limit| &*limit).map_err(Status::Mesh)
+}
+
+/// Limit normals, as words.
+fn normals<'s>(
+    tangents: &mut Tangents,
+    scheme: Scheme,
+    rim: Rim,
+    mesh: ControlMesh<'_>,
+    points: &[[i32; 3]],
+    scratch: &mut Space<'s>,
+) -> Result<&'s [[i32; 3]], Status> {
+    let masks = match scheme {
+        Scheme::Loop(_) => Some(TangentMasks::Loop),
+        Scheme::CatmullClark => Some(TangentMasks::CatmullClark),
+        Scheme::DooSabin => None,
+        Scheme::Sqrt3 | Scheme::Butterfly(_) => return Err(Status::Malformed),
+    };
+    let count = if masks.is_some() {
+        mesh.indices.len()
+    } else {
+        mesh.face_count()
+    };
+    let out = scratch.slice(Arena::OutputPoints, count, [0_i16; 3])?;
+    let found: Result<&mut [[i16; 3]], MeshError> = if let Some(masks) = masks {
+        let edges = find_edges(&mesh, scratch)?;
+        let states = with_edges(length(mesh.vertex_count), &edges);
+        let buffers = NormalBuffers {
+            out,
+            done: scratch.slice(Arena::FaceCorners, count, true)?,
+            states: scratch.slice(Arena::States, states, VertexState::default())?,
+        };
+        limit_normals(tangents, &mesh, &edges, masks, rim, points, buffers)
+    } else {
+        face_normals(tangents, &mesh, points, out)
+    };
+    let found = found.map_err(Status::Mesh)?;
+    let words = scratch.slice(Arena::OutputPoints, count, [0_i32; 3])?;
+    for (word, normal) in words.iter_mut().zip(found.iter()) {
+        *word = normal.map(i32::from);
+    }
+    Ok(words)
 }
 
 /// As many elements as there are vertices and edges.

@@ -16,8 +16,8 @@ mod multi_step;
 mod polygons;
 mod row;
 mod sqrt3;
-mod tri_quad;
 mod tangents;
+mod tri_quad;
 
 pub use butterfly::butterfly;
 pub use catmull_clark::{catmull_clark, catmull_clark_limit};
@@ -27,8 +27,8 @@ pub use multi_step::{after_steps, beside_limit};
 pub use polygons::{Border, Kind, Polygons, edge, sides};
 pub use row::{Grid, Row, WEIGHT_UNIT};
 pub use sqrt3::{sqrt3, sqrt3_limit};
-pub use tri_quad::{TriQuad, tri_quad};
 pub use tangents::{face_normals, limit_normals};
+pub use tri_quad::{TriQuad, tri_quad};
 
 /// A refined mesh and the mask of each of its vertices.
 #[derive(Clone, Debug, PartialEq)]

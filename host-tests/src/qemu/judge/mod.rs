@@ -62,6 +62,8 @@ pub enum Subject {
     Sqrt3Adaptive,
     /// Several square-root-3 steps at once
     Sqrt3Steps,
+    /// Normals of Loop's, Catmull-Clark and Doo-Sabin surfaces in the limit
+    LimitNormals,
     /// Mixed solids of tetrahedra, octahedra, prisms and hexahedra
     Mixed,
     /// Volume forms and their gradients
@@ -105,6 +107,7 @@ impl Subject {
             Subject::ButterflyModified => surface::case(Scheme::ButterflyModified, seed),
             Subject::Sqrt3Adaptive => sqrt3::adaptive(seed),
             Subject::Sqrt3Steps => sqrt3::steps(seed),
+            Subject::LimitNormals => surface::normals(seed),
             Subject::Mixed => mixed::case(seed),
             Subject::Volume => volume::form(seed),
             Subject::VolumeModes => volume::polynomial(seed),

@@ -1,6 +1,8 @@
 //! Control meshes, every scheme uniformly.
 
-use octruss_firmware::cases::{SECTION_FACES, SECTION_LIMIT, SURFACE, summary};
+use octruss_firmware::cases::{
+    LIMIT_NORMALS, SECTION_FACES, SECTION_LIMIT, SECTION_LIMIT_NORMALS, SURFACE, summary,
+};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
 
@@ -9,7 +11,8 @@ use crate::qemu::conformance::Section;
 use crate::random_surface::{Shape, SurfaceCase, Wishes};
 use crate::reference_surface::{
     Border, Family, Grid, Polygons, Row, apply, butterfly, catmull_clark, catmull_clark_limit,
-    count_saturated, doo_sabin, loop_limit, loop_rule, sqrt3, sqrt3_limit, tri_quad,
+    count_saturated, doo_sabin, face_normals, limit_normals, loop_limit, loop_rule, sqrt3,
+    sqrt3_limit, tri_quad,
 };
 
 /// A scheme, as cases number them.
@@ -68,6 +71,56 @@ pub(super) fn case(scheme: Scheme, seed: u32) -> Judged {
         walk.limit(done, &mesh);
     }
     let judged = Judged::sound(SURFACE, seed, words, walk.expected);
+    if seed.is_multiple_of(10) {
+        judged.damaged(&mut ChaCha8Rng::seed_from_u64(u64::from(seed)))
+    } else {
+        judged
+    }
+}
+
+/// The case of limit normals of a seed: the schemes take turns, and so do levels from none on. One of every ten is
+/// damaged.
+pub(super) fn normals(seed: u32) -> Judged {
+    const SCHEMES: [Scheme; 5] = [
+        Scheme::Loop,
+        Scheme::CatmullClark,
+        Scheme::DooSabin,
+        Scheme::LoopWarren,
+        Scheme::CatmullClark,
+    ];
+    let scheme = SCHEMES[(seed / 30 % 5) as usize];
+    let (mut mesh, points) = control_mesh(scheme, seed);
+    let border = [Border::Spline, Border::SplineWithCorners, Border::Fixed][seed as usize % 3];
+    let mut walk = Walk {
+        scheme,
+        border,
+        points: points.clone(),
+        expected: Expected::default(),
+    };
+    let mut words = vec![scheme as u32, seed % 3 + 1, 0, 0];
+    push_mesh(&mut words, &mesh, &points);
+    // Catmull-Clark masks want quads, which the first level brings.
+    let levels = u32::from(scheme == Scheme::CatmullClark) + seed / 3 % 2;
+    for level in 1..=levels {
+        if !scheme.takes(&mesh) {
+            break;
+        }
+        let refined = scheme.refine(&mesh, border);
+        if level > 1 && corners(&refined.mesh) > CORNERS_BEFORE_LIMIT {
+            break;
+        }
+        mesh = walk.step(level, refined);
+        words[2] = level;
+    }
+    // A fin may run the wrong way along its edge; what comes of that is for core on the host to say.
+    let is_refused = scheme != Scheme::DooSabin && mesh.has_turned_faces();
+    if !is_refused {
+        walk.normals(words[2], &mesh);
+    }
+    let mut judged = Judged::sound(LIMIT_NORMALS, seed, words, walk.expected);
+    if is_refused {
+        judged.expected = None;
+    }
     if seed.is_multiple_of(10) {
         judged.damaged(&mut ChaCha8Rng::seed_from_u64(u64::from(seed)))
     } else {
@@ -230,6 +283,26 @@ impl Walk {
         words.extend(bits(&limit));
         self.expected.sections.push(Section {
             tag: SECTION_LIMIT,
+            words,
+        });
+    }
+}
+
+impl Walk {
+    fn normals(&mut self, level: u32, mesh: &Polygons) {
+        let (normals, zeros) = match self.scheme {
+            Scheme::DooSabin => face_normals(mesh, &self.points),
+            scheme => {
+                let are_quads = scheme == Scheme::CatmullClark;
+                limit_normals(mesh, are_quads, self.border, &self.points)
+            }
+        };
+        self.expected.coordinates += 3 * normals.len();
+        let coordinates = normals.as_flattened().iter();
+        let mut words = vec![level, zeros];
+        words.extend(coordinates.map(|bits| i32::from(*bits).cast_unsigned()));
+        self.expected.sections.push(Section {
+            tag: SECTION_LIMIT_NORMALS,
             words,
         });
     }
