@@ -66,6 +66,86 @@ fn limits_ask_for_quads() {
     assert!(!folder.path("none.off").exists());
 }
 
+/// A cube's symmetry: the limit's normal at a corner looks along the diagonal, at a face's centre along an axis. A
+/// .ply has one for each vertex, an .obj one for each corner of a face.
+#[test]
+fn limits_have_normals() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.obj", CUBE);
+    for (numeric, bound) in [("f64", 1e-15), ("fixed", 1e-4)] {
+        for extension in ["ply", "obj"] {
+            octruss()
+                .args(["refine", "--scheme", "catmull-clark", "--limit"])
+                .args(["--numeric", numeric, "-o"])
+                .arg(folder.path(&format!("fine.{extension}")))
+                .arg(&cube)
+                .assert()
+                .success();
+        }
+        let text = std::fs::read_to_string(folder.path("fine.ply")).unwrap();
+        let (header, body) = text.split_once("end_header\n").unwrap();
+        assert!(header.contains("property double nz"));
+        let line = |place: usize| -> Vec<f64> {
+            let words = body.lines().nth(place).unwrap().split(' ');
+            words.map(|word| word.parse().unwrap()).collect()
+        };
+        let diagonal = -(1.0_f64 / 3.0).sqrt();
+        for (vertex, normal) in [(0, [diagonal; 3]), (20, [0.0, 0.0, -1.0])] {
+            let found = &line(vertex)[3..];
+            for (got, want) in found.iter().zip(normal) {
+                assert!((got - want).abs() < bound, "{numeric}, {vertex}: {found:?}");
+            }
+        }
+        let text = std::fs::read_to_string(folder.path("fine.obj")).unwrap();
+        // 26 vertices, no crease: as many normals, and every corner names one.
+        let count = |start: &str| text.lines().filter(|line| line.starts_with(start)).count();
+        assert_eq!(count("vn "), 26, "{numeric}");
+        let mut corners = text.lines().filter(|line| line.starts_with("f "));
+        assert!(corners.all(|face| face.matches("//").count() == 4));
+    }
+}
+
+/// The limit of a Doo-Sabin surface: the dual mesh. A cube's dual is an octahedron, a vertex in the middle of
+/// each face and its normal along an axis.
+#[test]
+fn doo_sabin_limits_are_the_dual_mesh() {
+    let folder = Folder::new();
+    let cube = folder.write("cube.obj", CUBE);
+    octruss()
+        .args([
+            "refine",
+            "--scheme",
+            "doo-sabin",
+            "--levels",
+            "0",
+            "--limit",
+            "-o",
+        ])
+        .arg(folder.path("dual.ply"))
+        .arg(&cube)
+        .assert()
+        .success()
+        .stdout("6 vertices, 8 faces\n");
+    let text = std::fs::read_to_string(folder.path("dual.ply")).unwrap();
+    let (_, body) = text.split_once("end_header\n").unwrap();
+    assert_eq!(body.lines().next(), Some("0.5 0.5 0 0 0 -1"));
+    let dual = read::surface(&folder.path("dual.ply")).unwrap();
+    assert!(dual.faces.iter().all(|face| face.len() == 3));
+    // Counter-clockwise from outside: the signed volume is the octahedron's, 1/6.
+    let volume: f64 = dual
+        .faces
+        .iter()
+        .map(|face| {
+            let [a, b, c] = [0, 1, 2].map(|i| dual.points[face[i] as usize].map(|x| x - 0.5));
+            (a[0] * (b[1] * c[2] - b[2] * c[1])
+                + a[1] * (b[2] * c[0] - b[0] * c[2])
+                + a[2] * (b[0] * c[1] - b[1] * c[0]))
+                / 6.0
+        })
+        .sum();
+    assert!((volume - 1.0 / 6.0).abs() < 1e-15, "{volume}");
+}
+
 /// A crease tag keeps an edge straight: its midpoint lies halfway.
 #[test]
 fn crease_tags_are_read() {

@@ -7,7 +7,9 @@ The peers are built from the sources beside this file when their headers are ins
 libcgal-dev, libopenmesh-dev, libosd-dev and a C++ compiler); one that is missing is skipped with a
 word. Positions are compared as sets: every vertex of each result must lie within the bound of one of
 the other, since programs number vertices differently. Bounds: 1e-12 of the mesh's size against
-double precision, 1e-6 against OpenSubdiv's single precision. Exit status 0 only if all that ran
+double precision, 1e-6 against OpenSubdiv's single precision. Limit positions and normals of Loop's and
+Catmull-Clark surfaces are held against OpenSubdiv's as well (normals: 1e-5, its tangents are of single
+precision), but for rims and creases where its masks belong to other rules. Exit status 0 only if all that ran
 agree. Needs no package but Python itself.
 """
 import itertools
@@ -194,6 +196,59 @@ def run(octruss, peer, program, schemes, bound, folder):
     return agree
 
 
+def compare_normals(ours, theirs):
+    """The greatest distance between the normals of vertices at the same place, and how many were compared.
+
+    `ours` is an ASCII .ply of octruss; `theirs` has x y z and a normal in each line, zeros for none."""
+    lines = ours.read_text().split("\n")
+    count = int(next(line for line in lines if line.startswith("element vertex")).split()[2])
+    first = lines.index("end_header") + 1
+    cell = 1e-3
+    key = lambda p: tuple(math.floor(x / cell) for x in p)
+    table = {}
+    for line in lines[first : first + count]:
+        numbers = list(map(float, line.split()))
+        table.setdefault(key(numbers[:3]), []).append(numbers)
+    worst, compared, place = 0.0, 0, 0.0
+    for numbers in read_points(theirs):
+        at, normal = numbers[:3], numbers[3:]
+        near = itertools.product(*[(x - 1, x, x + 1) for x in key(at)])
+        found = [vertex for near_key in near for vertex in table.get(near_key, [])]
+        own = min(found, key=lambda vertex: math.dist(vertex[:3], at), default=None)
+        if own is None:
+            return math.inf, math.inf, compared
+        place = max(place, math.dist(own[:3], at))
+        if any(normal):
+            worst, compared = max(worst, math.dist(own[3:], normal)), compared + 1
+    return place, worst, compared
+
+
+def run_limits(octruss, program, folder):
+    """Limit positions and normals against OpenSubdiv."""
+    agree = True
+    for scheme in ("loop", "catmull-clark"):
+        rng = random.Random(f"limit {scheme}")
+        places, worst, compared = 0.0, 0.0, 0
+        for points, faces, levels, features, _ in cases(rng, "opensubdiv", scheme):
+            mesh, ours, theirs = folder / "in.off", folder / "ours.ply", folder / "theirs.txt"
+            tags = folder / "features.txt"
+            write_off(mesh, points, faces)
+            tags.write_text("\n".join(features) + "\n")
+            command = [octruss, "refine", str(mesh), "--scheme", scheme, "--levels", str(levels)]
+            command += ["--limit", "--features", str(tags), "-o", str(ours)]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            command = [str(program), scheme, str(levels), str(mesh), str(theirs), str(tags), "limit"]
+            subprocess.run(command, check=True)
+            size = max(math.dist(p, q) for p in points for q in points)
+            place, normal, count = compare_normals(ours, theirs)
+            places, worst, compared = max(places, place / size), max(worst, normal), compared + count
+        good = places <= 1e-6 and worst <= 1e-5
+        verdict = "agree" if good else "DIFFER, more than 1e-06 or 1e-05"
+        print(f"opensubdiv {scheme} limit: positions {places:.3g} of the size, {compared} normals {worst:.3g}: {verdict}")
+        agree &= good
+    return agree
+
+
 def main():
     octruss = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "target/release/octruss")
     if shutil.which(octruss) is None:
@@ -205,6 +260,8 @@ def main():
             program = build(peer, header, libraries, folder)
             if program is not None:
                 agree &= run(octruss, peer, program, schemes, bound, folder)
+                if peer == "opensubdiv":
+                    agree &= run_limits(octruss, program, folder)
     sys.exit(0 if agree else 1)
 
 

@@ -1,5 +1,8 @@
-// Refines an .off mesh with OpenSubdiv in single precision: SCHEME LEVELS IN OUT [FEATURES], where
-// FEATURES has a line "crease A B" or "corner A" each, vertices counted from 0.
+// Refines an .off mesh with OpenSubdiv in single precision: SCHEME LEVELS IN OUT [FEATURES [limit]], where
+// FEATURES (or -) has a line "crease A B" or "corner A" each, vertices counted from 0. With "limit" the vertices
+// go to the limit and each is followed by the limit's normal: zeros where creases meet it or OpenSubdiv's masks
+// belong to other rules beside a crease (rims with other than the regular number of faces).
+#include <cmath>
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <fstream>
@@ -18,7 +21,8 @@ struct Vertex {
 };
 
 int main(int count, char **words) {
-  if (count != 5 && count != 6) return 2;
+  if (count < 5 || count > 7) return 2;
+  const bool to_limit = count == 7;
   const std::string scheme = words[1];
   const int levels = std::stoi(words[2]);
   std::ifstream in(words[3]);
@@ -38,7 +42,7 @@ int main(int count, char **words) {
   }
   if (!in) return 3;
   std::vector<int> crease_pairs, corner_vertices;
-  if (count == 6) {
+  if (count >= 6 && std::string(words[5]) != "-") {
     std::ifstream features(words[5]);
     std::string kind;
     while (features >> kind) {
@@ -74,7 +78,9 @@ int main(int count, char **words) {
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
   std::unique_ptr<Far::TopologyRefiner> refiner(
       Factory::Create(mesh, Factory::Options(type, options)));
-  refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(levels));
+  Far::TopologyRefiner::UniformOptions uniform(levels);
+  uniform.fullTopologyInLastLevel = to_limit;
+  refiner->RefineUniform(uniform);
   Far::PrimvarRefiner primvar(*refiner);
   for (int level = 1; level <= levels; ++level) {
     std::vector<Vertex> next(refiner->GetLevel(level).GetNumVertices());
@@ -84,6 +90,31 @@ int main(int count, char **words) {
   }
   std::ofstream out(words[4]);
   out.precision(9);
+  if (to_limit) {
+    std::vector<Vertex> at(points.size()), one(points.size()), other(points.size());
+    auto *limits = at.data(), *ones = one.data(), *others = other.data();
+    primvar.Limit(points.data(), limits, ones, others);
+    const Far::TopologyLevel last = refiner->GetLevel(levels);
+    for (int v = 0; v < int(points.size()); ++v) {
+      double a[3], b[3];
+      for (int i = 0; i < 3; ++i) a[i] = one[v].at[i], b[i] = other[v].at[i];
+      double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+      const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      int sharp = 0;
+      const auto around = last.GetVertexEdges(v);
+      for (int e = 0; e < around.size(); ++e) {
+        sharp += last.GetEdgeSharpness(around[e]) > 0 && !last.IsEdgeBoundary(around[e]);
+      }
+      const int regular = scheme == "loop" ? 3 : 2;
+      const bool corner = last.GetVertexSharpness(v) > 0;
+      const bool usable = last.IsVertexBoundary(v) ? last.GetVertexFaces(v).size() == regular : true;
+      const double keep = sharp == 0 && !corner && usable && length > 0 ? 1 / length : 0;
+      for (float x : at[v].at) out << x << " ";
+      for (double x : n) out << x * keep << " ";
+      out << "\n";
+    }
+    return out ? 0 : 5;
+  }
   for (auto const &p : points) out << p.at[0] << " " << p.at[1] << " " << p.at[2] << "\n";
   return out ? 0 : 5;
 }

@@ -50,7 +50,9 @@ pub struct Arguments {
     /// What the rim of an open surface follows
     #[arg(long, value_enum, default_value_t)]
     pub rim: RimRule,
-    /// Surfaces: move the vertices of the last level to where they go in the limit
+    /// Surfaces: move the vertices of the last level to where they go in the limit, and write the limit's normals
+    /// there: in an .obj for every corner of a face (a crease has two sides), in a .ply for every vertex; not for
+    /// sqrt3 and the butterflies. Of doo-sabin the faces' centres are written, as the dual mesh
     #[arg(long)]
     pub limit: bool,
     /// The numbers to compute with

@@ -7,6 +7,9 @@ use octruss::mesh::{
     ControlMesh, ControlMeshBuffers, FaceOrder, Fans, MeshError, Part, Side, SurfaceEdges,
 };
 use octruss::surface::butterfly::Variant;
+use octruss::surface::limit_normals::{
+    NormalBuffers, TangentBlend, TangentMasks, face_normals, limit_normals,
+};
 use octruss::surface::{
     PointBuffers, Rim, SurfaceCounts, VertexState, butterfly, catmull_clark, doo_sabin,
     loop_scheme, sqrt3, tri_quad,
@@ -65,6 +68,45 @@ impl SurfaceLevel {
     /// The corners of every face.
     pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
         self.mesh().faces()
+    }
+
+    /// The mesh with a vertex for each face and a face for each vertex that faces go all round, in their order.
+    #[must_use]
+    pub fn dual(&self) -> Self {
+        let mut next_face = std::collections::HashMap::new();
+        let mut first = vec![None; self.vertex_count as usize];
+        for (number, face) in (0_u32..).zip(self.faces()) {
+            let befores = face.iter().cycle().skip(face.len() - 1);
+            let afters = face.iter().cycle().skip(1);
+            for ((&vertex, &before), &after) in face.iter().zip(befores).zip(afters) {
+                // Entering over the edge to `after`, counter-clockwise.
+                next_face.insert((vertex, after), (number, before));
+                first[vertex as usize].get_or_insert((number, after));
+            }
+        }
+        let mut dual = Self {
+            vertex_count: u32::try_from(self.mesh().face_count()).unwrap_or(u32::MAX),
+            offsets: vec![0],
+            ..Self::default()
+        };
+        for (vertex, start) in (0_u32..).zip(first) {
+            let Some((_, start)) = start else { continue };
+            let mut round = Vec::new();
+            let mut over = start;
+            while let Some(&(face, before)) = next_face.get(&(vertex, over)) {
+                round.push(face);
+                over = before;
+                if over == start {
+                    break;
+                }
+            }
+            // A face of fewer corners has no area; two faces all round leave such.
+            if over == start && round.len() >= 3 {
+                dual.indices.extend(round);
+                dual.offsets.push(dual.indices.len() as u32);
+            }
+        }
+        dual
     }
 
     fn with_counts(counts: &SurfaceCounts) -> Self {
@@ -247,11 +289,63 @@ impl<'a> SurfaceStep<'a> {
         Ok(buffers.out)
     }
 
+    /// Limit normals from the values of this level's vertices: one for each corner of each face, face by face, of
+    /// Doo-Sabin surfaces one for each face. None of schemes that have no masks of tangents: square-root-3, the
+    /// butterflies and `tri-quad`.
+    ///
+    /// # Errors
+    /// If the scheme has no masks of tangents on the mesh.
+    pub fn normals<T: TangentBlend>(
+        &mut self,
+        blend: &mut T,
+        values: &[T::Point],
+    ) -> Result<Option<Vec<T::Normal>>> {
+        let mesh = self.from;
+        let masks = match self.scheme {
+            SurfaceScheme::CatmullClark => TangentMasks::CatmullClark,
+            SurfaceScheme::DooSabin => {
+                let mut out = vec![blend.no_normal(); mesh.face_count()];
+                face_normals(blend, &mesh, values, &mut out).map_err(complaint)?;
+                return Ok(Some(out));
+            }
+            scheme if scheme.loop_weights().is_some() => TangentMasks::Loop,
+            _ => return Ok(None),
+        };
+        let memory = &mut self.memory;
+        let edges = SurfaceEdges::new(&mesh, &mut memory.sides).map_err(complaint)?;
+        let mut out = vec![blend.no_normal(); mesh.indices.len()];
+        let buffers = NormalBuffers {
+            out: &mut out,
+            done: &mut vec![false; mesh.indices.len()],
+            states: &mut memory.states,
+        };
+        let rim = self.rim.to_core();
+        limit_normals(blend, &mesh, &edges, masks, rim, values, buffers).map_err(complaint)?;
+        Ok(Some(out))
+    }
+
+    /// The values in the limit at this level's faces, for Doo-Sabin surfaces.
+    ///
+    /// # Errors
+    /// If the scheme does not take the mesh.
+    pub fn face_limit<B: Blend>(
+        &mut self,
+        blend: &mut B,
+        values: &[B::Point],
+    ) -> Result<Vec<B::Point>> {
+        // Refuses what no level could be made of.
+        self.numbers().map_err(complaint)?;
+        let mut buffers = Buffers::new(blend, self.from.face_count());
+        let out = &mut buffers.out;
+        doo_sabin::limit_points(blend, &self.from, values, out).map_err(complaint)?;
+        Ok(buffers.out)
+    }
+
     /// The values in the limit at this level's vertices.
     ///
     /// # Errors
     /// If the scheme does not take the mesh, or has no limit mask on it; Doo-Sabin's limit points
-    /// belong to faces, not to vertices, and `tri-quad` has no limit masks.
+    /// belong to faces, not to vertices (see [`SurfaceStep::face_limit`]), and `tri-quad` has no limit masks.
     pub fn limit<B: Blend>(&mut self, blend: &mut B, values: &[B::Point]) -> Result<Vec<B::Point>> {
         let (mesh, scheme, rim) = (self.from, self.scheme, self.rim.to_core());
         if scheme == SurfaceScheme::TriQuad {
@@ -269,7 +363,7 @@ impl<'a> SurfaceStep<'a> {
                 return Err(Error::new(
                     "Doo-Sabin surfaces have limit points at their faces' centres, not at vertices",
                 )
-                .advise("leave --limit out, or take catmull-clark"));
+                .advise("leave --limit out, take catmull-clark, or refine it with --limit"));
             }
             Numbers::Sqrt3(numbering) => {
                 sqrt3::limit_points(blend, &mesh, numbering, values, lent).map_err(complaint)?;

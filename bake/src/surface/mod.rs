@@ -4,8 +4,10 @@
 //! core's lists. Masks and numbering are core's; any values may be taken along.
 
 mod level;
+mod tangents;
 
 pub use level::{SurfaceLevel, SurfaceStep};
+pub use tangents::RealTangents;
 
 use crate::mesh::{Features, Point};
 use crate::read::models::Model;

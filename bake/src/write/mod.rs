@@ -48,12 +48,48 @@ pub fn surface(
     faces: &[&[u32]],
     out: &mut dyn Write,
 ) -> Result<()> {
+    surface_with_normals(extension, points, None, faces, out)
+}
+
+/// Writes a surface with a normal for each corner of each face, face by face. An `.obj` keeps them all, so that a
+/// crease has both sides' normals; a `.ply` has one for each vertex, the mean of those of its corners brought to
+/// unit length; an `.off` has none.
+///
+/// # Errors
+/// As [`surface`].
+pub fn surface_with_normals(
+    extension: &str,
+    points: &[Point],
+    normals: Option<&[Point]>,
+    faces: &[&[u32]],
+    out: &mut dyn Write,
+) -> Result<()> {
     match extension {
-        "obj" => obj::write(points, faces.iter().copied(), out),
-        "ply" => ply::write(points, faces, out),
+        "obj" => obj::write(points, normals, faces.iter().copied(), out),
+        "ply" => {
+            let means = normals.map(|normals| vertex_means(points.len(), normals, faces));
+            ply::write(points, means.as_deref(), faces, out)
+        }
         "off" => off::write(points, faces.iter().copied(), out),
         other => Err(no_writer(other)),
     }
+}
+
+/// The mean of the normals of each vertex's corners, brought to unit length; zero for none.
+fn vertex_means(vertices: usize, normals: &[Point], faces: &[&[u32]]) -> Vec<Point> {
+    let mut sums = vec![[0.0; 3]; vertices];
+    for (vertex, normal) in faces.iter().copied().flatten().zip(normals) {
+        for (total, coordinate) in sums[*vertex as usize].iter_mut().zip(normal) {
+            *total += coordinate;
+        }
+    }
+    for sum in &mut sums {
+        let length = sum.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length > 0.0 {
+            *sum = sum.map(|coordinate| coordinate / length);
+        }
+    }
+    sums
 }
 
 /// Error unless [`surface`] writes the format that the file's extension names.

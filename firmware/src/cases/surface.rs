@@ -433,7 +433,7 @@ fn normals<'s>(
         Scheme::Loop(_) => Some(TangentMasks::Loop),
         Scheme::CatmullClark => Some(TangentMasks::CatmullClark),
         Scheme::DooSabin => None,
-        Scheme::Sqrt3 | Scheme::Butterfly(_) => return Err(Status::Malformed),
+        Scheme::Sqrt3 | Scheme::Butterfly(_) | Scheme::TriQuad => return Err(Status::Malformed),
     };
     let count = if masks.is_some() {
         mesh.indices.len()

@@ -105,7 +105,7 @@ pub(super) fn normals(seed: u32) -> Judged {
         if !scheme.takes(&mesh) {
             break;
         }
-        let refined = scheme.refine(&mesh, border);
+        let refined = scheme.refine(&mesh, border, &walk.points);
         if level > 1 && corners(&refined.mesh) > CORNERS_BEFORE_LIMIT {
             break;
         }
