@@ -109,7 +109,7 @@ impl Values {
     }
 
     /// Goes to the limit, at vertices or, of Doo-Sabin surfaces, at faces.
-    fn to_limit(&mut self, step: &mut SurfaceStep<'_>, of_faces: bool) -> Result<()> {
+    fn move_to_limit(&mut self, step: &mut SurfaceStep<'_>, of_faces: bool) -> Result<()> {
         match self {
             Self::Real(points) if of_faces => *points = step.face_limit(&mut RealBlend, points)?,
             Self::Real(points) => *points = step.limit(&mut RealBlend, points)?,
@@ -152,7 +152,7 @@ fn refine(mesh: &SurfaceMesh, scheme: SurfaceScheme, arguments: &Arguments) -> R
         let mut step = SurfaceStep::new(&level, scheme, arguments.rim);
         normals = values.normals(&mut step)?;
         let of_faces = scheme == SurfaceScheme::DooSabin;
-        values.to_limit(&mut step, of_faces)?;
+        values.move_to_limit(&mut step, of_faces)?;
         if of_faces {
             // Limit positions are the faces' centres: vertices of the dual mesh.
             let dual = level.dual();
