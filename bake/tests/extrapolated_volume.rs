@@ -261,13 +261,16 @@ fn a_mixed_cage_fills_its_boundary() {
         diagonals: None,
         boundary: BoundaryRule::TriQuad,
     };
-    let cells = region::forms(&cage, rules, 1).unwrap();
-    let [[a, b], [c, d]] = [whole, cells].map(|forms| forms.map(|form| form.volume(&cage.points)));
+    let cells = region::forms(&cage, rules, Some(1)).unwrap();
+    let [[a, b], [c, d]] =
+        [whole, cells.clone()].map(|forms| forms.map(|form| form.volume(&cage.points)));
     assert!(
         (a - c).abs() <= (a - b).abs() + (c - d).abs(),
         "{a} {b} {c} {d}"
     );
     assert!((a - b).abs() < 1e-3 * a, "{a} {b}");
+    // All cells are those with the label 1.
+    assert_eq!(cells, region::forms(&cage, rules, None).unwrap());
     // The smooth solid lies within the house of 8 + 4/3 + 4.
     assert!(a > 5.0 && a < 13.4, "{a}");
 }

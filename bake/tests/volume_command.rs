@@ -245,24 +245,45 @@ fn regions_and_modes_are_baked() {
     }
     assert!(bundle.volume_modes::<i32>(7).expect("no error").is_none());
 
-    for (arguments, message) in [
-        ("--volume=3", "two.mesh: no cell has the label 3"),
-        (
-            "--volume --boundary fixed",
-            "the enclosed volume of this boundary rule has no form",
-        ),
-    ] {
+    // A fixed boundary is the double pyramid: a base of area 2, heights of 2 above and below. Without a
+    // rule of its own it shrinks.
+    let with_boundary = |rule: &str| {
         let mut bake = Command::cargo_bin("octruss").expect("the binary is built");
-        bake.arg("bake")
-            .args(arguments.split(' '))
-            .arg("--model")
-            .arg(&model);
-        bake.arg(&cage)
-            .arg("-o")
-            .arg(directory.path().join("none.oct"));
-        bake.assert().code(1).stderr(contains(message));
-        assert!(!directory.path().join("none.oct").exists());
-    }
+        bake.args([
+            "bake",
+            "--volume",
+            "--json",
+            "--outside",
+            "nearest",
+            "--boundary",
+            rule,
+        ]);
+        bake.arg("--model").arg(&model).arg(&cage);
+        bake.arg("-o").arg(directory.path().join("rule.oct"));
+        let out = bake.assert().success().get_output().stdout.clone();
+        let report: serde_json::Value = serde_json::from_slice(&out).expect("JSON");
+        let figure = |key: &str| report["volumes"][0][key].as_f64().expect("a number");
+        [figure("volume"), figure("error_estimate")]
+    };
+    let [fixed, error] = with_boundary("fixed");
+    assert!(
+        (fixed - 8.0 / 3.0).abs() < 1e-14 && error == 0.0,
+        "{fixed} {error}"
+    );
+    let [interior, error] = with_boundary("interior");
+    assert!(
+        interior > 0.0 && interior + error < fixed,
+        "{interior} {error}"
+    );
+
+    let mut bake = Command::cargo_bin("octruss").expect("the binary is built");
+    bake.args(["bake", "--volume=3", "--model"]).arg(&model);
+    bake.arg(&cage)
+        .arg("-o")
+        .arg(directory.path().join("none.oct"));
+    let message = "two.mesh: no cell has the label 3";
+    bake.assert().code(1).stderr(contains(message));
+    assert!(!directory.path().join("none.oct").exists());
 }
 
 /// The bundle of a surface holds its volume too: the paper's 6241/9920 of Doo and Sabin's unit cube.

@@ -85,7 +85,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t)]
     outside: Outside,
     /// Also bake the volume that the cage's smooth boundary encloses, as one form over its control
-    /// points, with --boundary loop, loop-warren or tri-quad; or with --volume=LABEL that of the cells with a label.
+    /// points, exact or extrapolated; or with --volume=LABEL that of the cells with a label.
     /// May be given several times
     #[arg(long, value_name = "LABEL", num_args = 0..=1, require_equals = true, default_missing_value = "0", allow_hyphen_values = true)]
     volume: Vec<i32>,

@@ -1,7 +1,8 @@
 //! The volume of the cells with a label, or of all cells, under the smooth map.
 //!
 //! Only a boundary that follows a surface scheme with a form has an exact volume. A region's border inside
-//! the cage follows the solid's scheme, so its volume is that of the polyhedra of successive levels,
+//! the cage, and a boundary that has no rule of its own, follow the solid's scheme, so the volume is that of
+//! the polyhedra of successive levels,
 //! extrapolated: their error falls by four a level.
 
 use super::control::ControlForm;

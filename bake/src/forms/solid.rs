@@ -133,6 +133,17 @@ impl Enclosure {
         Ok(forms.map(|form| self.in_file(form)))
     }
 
+    /// The volume of the control polyhedron itself, exactly, as one form over the file's vertices.
+    ///
+    /// # Errors
+    /// If there are too many control points.
+    pub fn polyhedron(&self) -> Result<ControlForm> {
+        let rows = (0..self.vertices.len()).map(|vertex| vec![(vertex, 1.0)]);
+        let faces = self.faces.iter().map(Vec::as_slice);
+        let form = ControlForm::of_faces(faces, &rows.collect::<Vec<_>>()).map_err(of_form)?;
+        Ok(self.in_file(form))
+    }
+
     /// Volume, centroid and inertia by extrapolation, where there is no exact form, and those from the
     /// levels before, for the surface's own points.
     ///

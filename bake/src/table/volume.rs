@@ -12,7 +12,7 @@ use crate::forms::{
 };
 use crate::mesh::{Point, SolidMesh};
 use crate::pack::writer::Section;
-use crate::refine::Level;
+use crate::refine::{BoundaryRule, Level};
 use crate::surface::{SurfaceMesh, SurfaceScheme};
 use octruss::bundle::{SECTION_CENTROID_MODES, SECTION_VOLUME, SECTION_VOLUME_MODES};
 use std::fmt;
@@ -329,15 +329,19 @@ pub(super) fn of_cage(
     options: &Options,
     region: Region,
 ) -> Result<[ControlForm; 2]> {
-    match region {
-        Region::Label(label) => region::forms(cage, rules(options), Some(label)),
-        Region::Whole => {
-            let scheme = options.boundary.surface_scheme().ok_or_else(|| {
-                Error::new("the enclosed volume of this boundary rule has no form")
-                    .advise("bake --volume with --boundary loop, loop-warren or tri-quad")
-            })?;
+    let cells = |label| region::forms(cage, rules(options), label);
+    if let Region::Label(label) = region {
+        return cells(Some(label));
+    }
+    match (options.boundary.surface_scheme(), options.boundary) {
+        (Some(scheme), _) => {
             Enclosure::of_cage(&Level::new(cage)?, &cage.features)?.control_forms(scheme)
         }
+        (None, BoundaryRule::Fixed) => {
+            let form = Enclosure::of_cage(&Level::new(cage)?, &cage.features)?.polyhedron()?;
+            Ok([form.clone(), form])
+        }
+        (None, _) => cells(None),
     }
 }
 
