@@ -10,7 +10,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The images that log through `defmt`. `apply` does not: it holds the apply path alone.
-const LOGGING_IMAGES: [&str; 6] = ["bench", "conformance", "demo", "faults", "skin", "volume"];
+const LOGGING_IMAGES: [&str; 8] = [
+    "bench",
+    "conformance",
+    "demo",
+    "faults",
+    "holding",
+    "inverse",
+    "skin",
+    "volume",
+];
 
 /// Where the C library of the image `rivals` is.
 const RIVALS_DIRECTORY: &str = "OCTRUSS_RIVALS_DIR";

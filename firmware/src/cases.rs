@@ -59,10 +59,12 @@
 //! | [`SECTION_SPRINGS`] | see [`springs`] |
 //! | [`SECTION_LABELS`] | level, the label of each tetrahedron at that level; then the same of octahedra |
 //! | [`SECTION_LIMIT_NORMALS`] | level, how many are zero, x y z of the limit normal of each corner of each face (Doo-Sabin: of each face) at that level |
+//! | [`SECTION_INVERSE`] | see [`inverse`] |
 
 pub mod apply;
 pub mod box_spline;
 pub mod data;
+pub mod inverse;
 pub mod mixed;
 pub mod refine;
 mod results;
@@ -142,6 +144,10 @@ pub const TURN: u32 = 41;
 pub const SPRINGS: u32 = 42;
 /// Kind of a case: points on springs that are shaken at random, by hashes of their state.
 pub const SHAKES: u32 = 43;
+/// Kind of a case: find amplitudes for goals while a volume is held.
+pub const INVERSE: u32 = 32;
+/// Kind of a case: find amplitudes for measured points.
+pub const SENSORS: u32 = 33;
 
 /// Tag of the section that ends a case.
 pub const SECTION_END: u32 = 0;
@@ -183,6 +189,8 @@ pub const SECTION_RIG: u32 = 40;
 
 /// Tag of a section with points on springs or the hash of their state.
 pub const SECTION_SPRINGS: u32 = 42;
+/// Tag of a section with the amplitudes and the report of a tick.
+pub const SECTION_INVERSE: u32 = 32;
 
 /// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
 ///
@@ -211,6 +219,8 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         TURN => rig::run_turn(words, results),
         SPRINGS => springs::run(words, memory.space(), results),
         SHAKES => springs::run_shakes(words, memory.space(), results),
+        INVERSE => inverse::run(words, results),
+        SENSORS => inverse::run_sensors(words, results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));

@@ -25,6 +25,8 @@
 //!   commands.
 //! - [`reference_springs`] is the springs written again in the same way; [`random_springs`] draws springs,
 //!   states, pushes and obstacles.
+//! - [`reference_control`] is the goals' solver written again, in integers of 128 bits;
+//!   [`random_inverse`] draws solvers, goals and volumes to hold.
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
 //! - [`reference_mixed`] is Hakenberg's scheme for mixed solids written again in the same way;
 //!   [`random_mixed`] draws mixed solids, and [`mixed_subject`] drives the crate under test on
@@ -44,6 +46,7 @@ pub mod performance;
 pub mod qemu;
 pub mod random_bundle;
 pub mod random_data;
+pub mod random_inverse;
 pub mod random_mesh;
 pub mod random_mixed;
 pub mod random_rig;
@@ -55,6 +58,7 @@ pub mod random_volume;
 pub mod rational;
 pub mod reference;
 pub mod reference_box_spline;
+pub mod reference_control;
 pub mod reference_mixed;
 pub mod reference_rig;
 pub mod reference_springs;

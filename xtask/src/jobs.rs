@@ -128,7 +128,7 @@ pub fn ci() -> Result<(), Failure> {
 }
 
 /// The host's tests against the reference, which take more random cases in the long proofs.
-const HOST_PROOFS: [(&str, &str); 12] = [
+const HOST_PROOFS: [(&str, &str); 13] = [
     ("host: tetrahedra and octahedra", "equality"),
     ("host: box splines", "box_spline_equality"),
     ("host: mixed solids", "mixed_equality"),
@@ -141,6 +141,7 @@ const HOST_PROOFS: [(&str, &str); 12] = [
     ("host: labels and channels", "data_equality"),
     ("host: rigs", "rig"),
     ("host: springs", "springs"),
+    ("host: goals", "control_inverse"),
 ];
 
 /// The long proofs.
@@ -247,6 +248,8 @@ pub fn bench() -> Result<(), Failure> {
         "volume",
         "--bin",
         "skin",
+        "--bin",
+        "inverse",
     ];
     Program::cargo()
         .args(build)

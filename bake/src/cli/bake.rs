@@ -11,6 +11,7 @@ use octruss_bake::read::motion;
 use octruss_bake::refine::{BoundaryRule, Scheme};
 use octruss_bake::surface::RimRule;
 use octruss_bake::table::format::MOST_FRACTION_BITS;
+use octruss_bake::table::inverse::{SolverReport, Solvers};
 use octruss_bake::table::{Input, Options, Outside, Region, Request, TableFormat, bake};
 use octruss_bake::write::Prepared;
 use octruss_bake::{check, read};
@@ -89,13 +90,33 @@ pub struct Arguments {
     /// May be given several times
     #[arg(long, value_name = "LABEL", num_args = 0..=1, require_equals = true, default_missing_value = "0", allow_hyphen_values = true)]
     volume: Vec<i32>,
-    /// With --volume: also bake the volumes as polynomials of the amplitudes of modes; a .csv or a folder like
-    /// that of a motion, in which every frame is the pose of one mode at amplitude one
-    #[arg(long, value_name = "MODES", requires = "volume")]
+    /// With --volume: also bake the volumes as polynomials of the amplitudes of modes; with --actuators: the
+    /// modes that actuators drive; a .csv or a folder like that of a motion, in which every frame is the pose of one
+    /// mode at amplitude one
+    #[arg(long, value_name = "MODES")]
     modes: Option<PathBuf>,
     /// With --modes: also bake the centroids of those volumes, for at most 16 modes
     #[arg(long, requires = "modes")]
     pub centroid: bool,
+    /// With --modes: also bake a solver that brings points to their goals by these amplitudes; a .csv with the columns
+    /// actuator (the mode, counted from 0), lower, upper (bounds), rate (a tick's greatest step, or inf)
+    #[arg(long, value_name = "ACTUATORS.csv", requires = "modes")]
+    pub actuators: Option<PathBuf>,
+    /// The points of the model that have goals: a .csv with the columns point (counted from 0) and weight
+    #[arg(long, value_name = "EFFECTORS.csv", requires = "actuators")]
+    effectors: Option<PathBuf>,
+    /// The points of the model that are measured, for a solver that tells the amplitudes from them: a .csv like that of
+    /// --effectors
+    #[arg(long, value_name = "SENSORS.csv", requires = "actuators")]
+    sensors: Option<PathBuf>,
+    /// What the square of an amplitude costs, as a part of what the square of the strongest mode's displacement does
+    #[arg(
+        long,
+        value_name = "PART",
+        default_value_t = 1e-4,
+        requires = "actuators"
+    )]
+    damping: f64,
     /// Also bake the model's faces, from which a device forms the normals of the deformed points
     #[arg(long)]
     pub normals: bool,
@@ -156,6 +177,7 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
             require_same_cells(&cage, mesh)
         })?,
         faces: arguments.normals.then(|| model.faces.clone()),
+        solvers: Solvers::default(),
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,
@@ -172,7 +194,12 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         model: &model.points,
         model_file,
     };
+    let options = Options {
+        solvers: solvers(arguments, model.points.len(), options.modes.len())?,
+        ..options
+    };
     let baked = bake(input, &options, &mut Bars::default())?;
+    warn_of_dependent_modes(&baked.report.solvers);
     write_sources(&baked.bundle, arguments)?;
     if baked.report.refined_cells_without_volume > 0 {
         eprintln!(
@@ -205,8 +232,55 @@ pub fn modes(
     let Some(file) = &arguments.modes else {
         return Ok(Vec::new());
     };
+    if arguments.volume.is_empty() && arguments.actuators.is_none() {
+        return Err(
+            Error::new("--modes is given, but nothing to bake for the modes")
+                .advise("give --volume, --actuators or both"),
+        );
+    }
     let frames = motion::read(file, control_points, check)?;
     Ok(frames.into_iter().map(|frame| frame.points).collect())
+}
+
+/// The solvers that are asked for.
+fn solvers(arguments: &Arguments, points: usize, modes: usize) -> Result<Solvers> {
+    let Some(file) = &arguments.actuators else {
+        return Ok(Solvers::default());
+    };
+    if arguments.effectors.is_none() && arguments.sensors.is_none() {
+        return Err(Error::new("--actuators needs points to solve for")
+            .advise("give --effectors, --sensors or both"));
+    }
+    if !(0.0..1.0).contains(&arguments.damping) {
+        return Err(
+            Error::new(format!("--damping {} is no part", arguments.damping))
+                .advise("take a number from 0 to below 1, such as 1e-4"),
+        );
+    }
+    let of = |file: &Option<PathBuf>| match file {
+        None => Ok(Vec::new()),
+        Some(file) => read::control::effectors(file, points),
+    };
+    Ok(Solvers {
+        actuators: read::control::actuators(file, modes)?,
+        effectors: of(&arguments.effectors)?,
+        sensors: of(&arguments.sensors)?,
+        damping: arguments.damping,
+    })
+}
+
+fn warn_of_dependent_modes(reports: &[SolverReport]) {
+    for report in reports.iter().filter(|report| report.is_dependent()) {
+        let what = if report.sensors {
+            "sensors"
+        } else {
+            "effectors"
+        };
+        eprintln!(
+            "warning: mode {} (counted from 0) moves the {what} almost as the modes before it do: only --damping decides between them",
+            report.most_dependent
+        );
+    }
 }
 
 fn require_same_cells(cage: &SolidMesh, pose: &SolidMesh) -> Result<()> {

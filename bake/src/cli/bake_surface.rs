@@ -17,6 +17,9 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
         )
         .advise("leave it out; --skin writes the refined surface"));
     }
+    if arguments.actuators.is_some() {
+        return Err(Error::new("--actuators is for cages of cells"));
+    }
     if let Some(skin) = &arguments.skin {
         write::require_surface_extension(skin)?;
     }

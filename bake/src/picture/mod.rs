@@ -7,9 +7,11 @@
 //! through. The tiles are painted three times as large and averaged down.
 
 mod paint;
+mod plot;
 mod text;
 mod view;
 
+pub use plot::{Curve, plot};
 pub use view::View;
 
 use crate::error::{Error, Result};

@@ -6,6 +6,7 @@
 //! file and one more line in [`solid`] or [`model`].
 
 pub mod channel;
+pub mod control;
 pub mod diagonals;
 pub mod features;
 pub mod gmsh;

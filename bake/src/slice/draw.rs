@@ -47,15 +47,22 @@ pub struct Profile {
 
 type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
+/// Makes the built-in font that of all text: no font of the system is looked for.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn register_font() -> Result<()> {
+    plotters::style::register_font("sans-serif", FontStyle::Normal, UBUNTU_LIGHT)
+        .map_err(|_| Error::new("the built-in font cannot be used"))
+}
+
 /// Draws a picture as PNG.
 ///
 /// # Errors
 /// If no point of the cut lies inside the solid, or the drawing fails.
 pub fn draw(picture: &Picture<'_>) -> Result<Vec<u8>> {
     let range = range(&picture.panels)?;
-    // The only font: no font of the system is looked for.
-    plotters::style::register_font("sans-serif", FontStyle::Normal, UBUNTU_LIGHT)
-        .map_err(|_| Error::new("the built-in font cannot be used"))?;
+    register_font()?;
     let columns = picture.panels.len().clamp(1, MOST_COLUMNS);
     let rows = picture.panels.len().div_ceil(columns);
     let [width, height] = [columns, rows].map(|panels| picture.size * panels as u32);

@@ -10,7 +10,7 @@ mod isolines;
 mod over_time;
 
 pub use checkerboard::{Checkerboard, Deformed, Window};
-pub use draw::{Panel, Picture, Profile, draw};
+pub use draw::{Panel, Picture, Profile, draw, register_font};
 pub use over_time::{Moment, Places, over_time};
 
 use crate::error::{Error, Result};

@@ -8,6 +8,7 @@
 
 mod choice;
 pub mod format;
+pub mod inverse;
 mod measure;
 pub mod precision;
 pub mod quantise;
@@ -73,6 +74,8 @@ pub struct Options {
     pub modes: Vec<Vec<Point>>,
     /// Also bake the centroids for those modes.
     pub centroid: bool,
+    /// Also bake solvers for goals over those modes.
+    pub solvers: inverse::Solvers,
     /// Also bake the faces of the model, for the normals of its points: each the points round a face, counter-
     /// clockwise from outside. None by default.
     pub faces: Option<Vec<Vec<u32>>>,
@@ -97,6 +100,7 @@ impl Default for Options {
             volumes: Vec::new(),
             modes: Vec::new(),
             centroid: false,
+            solvers: inverse::Solvers::default(),
             faces: None,
             request: Request::default(),
             random_poses: 4,
@@ -185,6 +189,16 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         )
         .map_err(of_cage)?;
     sections.extend(of_volumes);
+    let wanted = inverse::Wanted {
+        solvers: &options.solvers,
+        modes: &options.modes,
+        cage: &cage.points,
+        rows: &rows,
+        rest_model: &rest_model,
+        format,
+    };
+    let (of_solvers, solvers) = wanted.sections().map_err(of_model)?;
+    sections.extend(of_solvers);
     let normals = match &options.faces {
         None => None,
         Some(faces) => {
@@ -234,6 +248,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         formats,
         precision,
         volumes,
+        solvers,
         normals,
     };
     Ok(Baked {

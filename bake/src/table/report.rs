@@ -1,5 +1,6 @@
 //! What there is to say about a baked table.
 
+use super::inverse::SolverReport;
 use super::precision::{FormPrecision, Precision};
 use super::quantise::{ONE, QuantisedRow};
 use super::volume::VolumeReport;
@@ -46,6 +47,9 @@ pub struct Report {
     /// The forms of enclosed volumes that were baked.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub volumes: Vec<VolumeReport>,
+    /// The solvers for goals that were baked.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub solvers: Vec<SolverReport>,
     /// The faces for normals, if they were baked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub normals: Option<NormalsReport>,
@@ -197,6 +201,9 @@ impl fmt::Display for Report {
         }
         for volume in &self.volumes {
             volume.write(f, unit)?;
+        }
+        for solver in &self.solvers {
+            solver.write(f)?;
         }
         if let Some(normals) = &self.normals {
             writeln!(

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::control::inverse::InverseError;
 use crate::control::rig::RigError;
 use crate::control::springs::SpringsError;
 use crate::enclosed::EnclosedError;
@@ -76,6 +77,8 @@ pub enum BundleError {
     Rig(RigError),
     /// Springs are not sound.
     Springs(SpringsError),
+    /// A solver for goals is not sound.
+    Inverse(InverseError),
     /// The faces round the point of a row are not sound: a neighbour that does not exist, too many corners,
     /// or lengths that do not fit. The number of rows if it is not the fault of a row.
     Normals {
@@ -136,6 +139,7 @@ impl fmt::Display for BundleError {
             Self::Volume(error) => write!(f, "the bundle's volume form is not sound: {error}"),
             Self::Rig(error) => write!(f, "the bundle's rig is not sound: {error}"),
             Self::Springs(error) => write!(f, "the bundle's springs are not sound: {error}"),
+            Self::Inverse(error) => write!(f, "the bundle's solver for goals is not sound: {error}"),
             Self::Normals { row } => {
                 write!(f, "the faces round the point of row {row} are not sound")
             }

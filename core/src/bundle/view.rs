@@ -8,11 +8,12 @@ use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
     SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_CENTROID_MODES,
-    SECTION_MODEL_POINTS, SECTION_NORMALS, SECTION_REST_CAGE, SECTION_RIG, SECTION_SPRINGS,
-    SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
+    SECTION_INVERSE, SECTION_MODEL_POINTS, SECTION_NORMALS, SECTION_REST_CAGE, SECTION_RIG,
+    SECTION_SPRINGS, SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
+use crate::control::inverse::Inverse;
 use crate::control::rig::Rig;
 use crate::control::springs::Springs;
 use crate::coord::Coordinate;
@@ -267,6 +268,37 @@ impl<'a> Bundle<'a> {
         CentroidModes::from_section(bytes, self.rest_cage.len())
             .map(Some)
             .map_err(BundleError::Volume)
+    }
+
+    /// The solver that brings effectors to their goals by the modes that were baked; `None` if there is none. It is
+    /// proved sound here, not when the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format, [`BundleError::Inverse`] if the
+    /// solver is not sound.
+    pub fn inverse<C: Coordinate>(&self) -> Result<Option<Inverse<'a>>, BundleError> {
+        self.solver::<C>(0)
+    }
+
+    /// The solver that tells the amplitudes of the modes from measured points: its goals are what was measured;
+    /// `None` if there is none.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bundle::inverse`].
+    pub fn sensors<C: Coordinate>(&self) -> Result<Option<Inverse<'a>>, BundleError> {
+        self.solver::<C>(1)
+    }
+
+    fn solver<C: Coordinate>(&self, number: u32) -> Result<Option<Inverse<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_INVERSE, number)? else {
+            return Ok(None);
+        };
+        Inverse::from_section(bytes)
+            .map(Some)
+            .map_err(BundleError::Inverse)
     }
 
     /// The faces round the model's points, for their normals; `None` if they were not baked. They are proved

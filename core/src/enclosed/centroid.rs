@@ -1,7 +1,7 @@
 //! The centroid for poses that are combinations of a few modes.
 
 use super::error::EnclosedError;
-use super::modes::{MODE_WEIGHT_LIMIT, amplitude, line, narrow, product};
+use super::modes::{MODE_WEIGHT_LIMIT, narrow, product};
 
 /// Moments are divided by volumes after a shift by at most so many bits.
 const SHIFT_LIMIT: i32 = 60;
@@ -151,6 +151,28 @@ impl<'a> CentroidModes<'a> {
         }
         total
     }
+}
+
+/// The amplitude of an index: one for index 0, then the modes'.
+fn amplitude(amplitudes: &[i32], index: usize) -> i32 {
+    match index.checked_sub(1) {
+        None => 1 << 30,
+        Some(mode) => amplitudes.get(mode).copied().unwrap_or_default(),
+    }
+}
+
+/// The sum of coefficient times amplitude over all indices from `first` on, rounded.
+#[inline(never)]
+fn line(row: &[i32], first: usize, amplitudes: &[i32]) -> i32 {
+    let (constant, row, from) = match (first.checked_sub(1), row.split_first()) {
+        (None, Some((&constant, rest))) => (constant, rest, 0),
+        (from, _) => (0, row, from.unwrap_or_default()),
+    };
+    let mut sum = product(constant, 1 << 30);
+    for (&coefficient, &amplitude) in row.iter().zip(amplitudes.get(from..).unwrap_or_default()) {
+        sum = sum.wrapping_add(product(coefficient, amplitude));
+    }
+    narrow(sum)
 }
 
 /// `(modes + 4 choose 4)`, which is below `2^60` for any 16-bit number of modes.

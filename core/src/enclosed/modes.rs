@@ -100,16 +100,19 @@ impl<'a> VolumeModes<'a> {
     /// [`EnclosedError::Length`] if the number of amplitudes does not fit.
     pub fn volume(&self, amplitudes: &[i32]) -> Result<i64, EnclosedError> {
         self.check_length(amplitudes.len())?;
-        let mut coefficients = self.coefficients;
-        let mut total = 0_i64;
-        for first in 0..=self.modes {
-            let mut plane = 0_i64;
-            for second in first..=self.modes {
-                let row = self.take_row(&mut coefficients, second);
-                let line = line(row, second, amplitudes);
-                plane = plane.wrapping_add(product(line, amplitude(amplitudes, second)));
-            }
-            total = total.wrapping_add(product(narrow(plane), amplitude(amplitudes, first)));
+        let (constant, mut coefficients) = self.coefficients.split_first().unwrap_or((&0, &[]));
+        let (first_row, more) = split(coefficients, amplitudes.len());
+        coefficients = more;
+        let start = product(*constant, ONE);
+        let first_line = narrow(start.wrapping_add(dot(first_row, amplitudes)));
+        let constants = product(first_line, ONE);
+        let mut total = plane(&mut coefficients, amplitudes);
+        total = product(narrow(total.wrapping_add(constants)), ONE);
+        let mut rest = amplitudes;
+        while let Some((&amplitude, others)) = rest.split_first() {
+            let plane = plane(&mut coefficients, rest);
+            total = total.wrapping_add(product(narrow(plane), amplitude));
+            rest = others;
         }
         Ok(total)
     }
@@ -132,31 +135,25 @@ impl<'a> VolumeModes<'a> {
         self.check_length(amplitudes.len())?;
         self.check_length(gradient.len())?;
         gradient.fill(0);
-        let mut coefficients = self.coefficients;
-        let mut total = 0_i64;
-        for first in 0..=self.modes {
-            let a = amplitude(amplitudes, first);
-            let mut plane = 0_i64;
-            for second in first..=self.modes {
-                let b = amplitude(amplitudes, second);
-                let row = self.take_row(&mut coefficients, second);
-                let line = line(row, second, amplitudes);
-                spread(row, second, round_shift(product(a, b), SHIFT), gradient);
-                add(gradient, second, product(line, a));
-                add(gradient, first, product(line, b));
-                plane = plane.wrapping_add(product(line, b));
-            }
-            total = total.wrapping_add(product(narrow(plane), a));
+        let (constant, mut coefficients) = self.coefficients.split_first().unwrap_or((&0, &[]));
+        let (first_row, more) = split(coefficients, amplitudes.len());
+        coefficients = more;
+        let start = product(*constant, ONE);
+        let sum = dot_and_spread(first_row, amplitudes, gradient, HALF);
+        let constants = product(narrow(start.wrapping_add(sum)), ONE);
+        let total = plane_and_gradient(&mut coefficients, amplitudes, gradient, ONE);
+        let mut total = product(narrow(total.wrapping_add(constants)), ONE);
+        let (mut rest, mut derivatives) = (amplitudes, gradient);
+        while let Some((&amplitude, others)) = rest.split_first() {
+            let plane = plane_and_gradient(&mut coefficients, rest, derivatives, amplitude);
+            total = total.wrapping_add(product(narrow(plane), amplitude));
+            let Some((own, more)) = derivatives.split_first_mut() else {
+                break;
+            };
+            *own = own.wrapping_add(plane);
+            (rest, derivatives) = (others, more);
         }
         Ok(total)
-    }
-
-    /// The coefficients of one pair: those of every `c` from `second` on.
-    fn take_row(&self, coefficients: &mut &'a [i32], second: usize) -> &'a [i32] {
-        let length = self.modes.wrapping_sub(second).wrapping_add(1);
-        let (row, more) = coefficients.split_at_checked(length).unwrap_or_default();
-        *coefficients = more;
-        row
     }
 
     const fn check_length(&self, given: usize) -> Result<(), EnclosedError> {
@@ -170,57 +167,89 @@ impl<'a> VolumeModes<'a> {
     }
 }
 
-/// The amplitude of an index: one for index 0, then the modes'.
+/// The product of two amplitudes of one, rounded by [`SHIFT`].
+const HALF: i32 = 1 << 29;
+
+/// The coefficients of one pair, those of every `c` from `b` on, and what lies behind them.
 #[inline(always)]
-pub(super) fn amplitude(amplitudes: &[i32], index: usize) -> i32 {
-    match index.checked_sub(1) {
-        None => ONE,
-        Some(mode) => amplitudes.get(mode).copied().unwrap_or_default(),
-    }
+fn split(coefficients: &[i32], length: usize) -> (&[i32], &[i32]) {
+    coefficients.split_at_checked(length).unwrap_or_default()
 }
 
-/// A row without its coefficient of index 0, if it has one, and the amplitudes that go with it.
-#[inline(always)]
-fn without_constant<A>(
-    row: &[i32],
-    second: usize,
-    values: A,
-    from: impl Fn(A, usize) -> A,
-) -> (i32, &[i32], A) {
-    match (second.checked_sub(1), row.split_first()) {
-        (None, Some((&constant, rest))) => (constant, rest, values),
-        (first, _) => (0, row, from(values, first.unwrap_or_default())),
-    }
-}
-
-/// The sum over `c` of coefficient times amplitude, rounded.
+/// The sum over `b` from the first of these amplitudes on, of amplitude times the rounded sum over `c`.
 #[inline(never)]
-pub(super) fn line(row: &[i32], second: usize, amplitudes: &[i32]) -> i32 {
-    let (constant, row, amplitudes) = without_constant(row, second, amplitudes, |all, first| {
-        all.get(first..).unwrap_or_default()
-    });
-    let mut sum = product(constant, ONE);
+fn plane(coefficients: &mut &[i32], amplitudes: &[i32]) -> i64 {
+    let (mut left, mut rest) = (*coefficients, amplitudes);
+    let mut plane = 0_i64;
+    while let Some((&amplitude, others)) = rest.split_first() {
+        let (row, more) = split(left, rest.len());
+        plane = plane.wrapping_add(product(narrow(dot(row, rest)), amplitude));
+        (left, rest) = (more, others);
+    }
+    *coefficients = left;
+    plane
+}
+
+/// The same, while every derivative gets what it has from the sums over `b` and `c`.
+#[inline(never)]
+fn plane_and_gradient(
+    coefficients: &mut &[i32],
+    amplitudes: &[i32],
+    gradient: &mut [i64],
+    first: i32,
+) -> i64 {
+    let (mut left, mut rest, mut derivatives) = (*coefficients, amplitudes, gradient);
+    let mut plane = 0_i64;
+    while let Some((&amplitude, others)) = rest.split_first() {
+        let (row, more) = split(left, rest.len());
+        let weight = round_shift(product(first, amplitude), SHIFT);
+        let sum = match i32::try_from(weight) {
+            Ok(weight) => dot_and_spread(row, rest, derivatives, weight),
+            // Both amplitudes are -2: the product is 2^31.
+            Err(_) => {
+                spread_wide(row, derivatives, weight);
+                dot(row, rest)
+            }
+        };
+        let line = narrow(sum);
+        plane = plane.wrapping_add(product(line, amplitude));
+        let Some((own, later)) = derivatives.split_first_mut() else {
+            break;
+        };
+        *own = own.wrapping_add(product(line, first));
+        // The first derivative is borrowed no longer.
+        (left, rest, derivatives) = (more, others, later);
+    }
+    *coefficients = left;
+    plane
+}
+
+/// The sum over `c` of coefficient times amplitude.
+#[inline(always)]
+fn dot(row: &[i32], amplitudes: &[i32]) -> i64 {
+    let mut sum = 0_i64;
     for (&coefficient, &amplitude) in row.iter().zip(amplitudes) {
         sum = sum.wrapping_add(product(coefficient, amplitude));
     }
-    narrow(sum)
+    sum
 }
 
-/// Adds `coefficient * weight` to the derivative of every `c`.
-#[inline(never)]
-fn spread(row: &[i32], second: usize, weight: i64, gradient: &mut [i64]) {
-    let (_, row, gradient) = without_constant(row, second, gradient, |all, first| {
-        all.get_mut(first..).unwrap_or_default()
-    });
+/// The same, while `coefficient * weight` goes to the derivative of every `c`.
+#[inline(always)]
+fn dot_and_spread(row: &[i32], amplitudes: &[i32], gradient: &mut [i64], weight: i32) -> i64 {
+    let mut sum = 0_i64;
+    for ((&coefficient, &amplitude), derivative) in row.iter().zip(amplitudes).zip(gradient) {
+        sum = sum.wrapping_add(product(coefficient, amplitude));
+        *derivative = derivative.wrapping_add(product(coefficient, weight));
+    }
+    sum
+}
+
+/// `coefficient * weight` for a weight of 33 bits.
+#[cold]
+fn spread_wide(row: &[i32], gradient: &mut [i64], weight: i64) {
     for (&coefficient, derivative) in row.iter().zip(gradient) {
         *derivative = derivative.wrapping_add(i64::from(coefficient).wrapping_mul(weight));
-    }
-}
-
-fn add(gradient: &mut [i64], index: usize, value: i64) {
-    let mode = index.checked_sub(1);
-    if let Some(derivative) = mode.and_then(|mode| gradient.get_mut(mode)) {
-        *derivative = derivative.wrapping_add(value);
     }
 }
 

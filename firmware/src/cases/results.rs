@@ -4,6 +4,7 @@ use core::fmt;
 
 use crc::Digest;
 use octruss::bundle::BundleError;
+use octruss::control::inverse::InverseError;
 use octruss::control::rig::RigError;
 use octruss::control::springs::SpringsError;
 use octruss::deform::ApplyError;
@@ -54,6 +55,8 @@ pub enum Status {
     Rig(RigError),
     /// 21: the springs are unsound or cannot be moved; the detail is the CRC-32 of the error's message.
     Springs(SpringsError),
+    /// 32: the goals' solver is unsound or cannot be run; the detail is the CRC-32 of the error's message.
+    Inverse(InverseError),
 }
 
 impl Status {
@@ -77,6 +80,7 @@ impl Status {
             Status::Enclosed(error) => [9, checksum(&error), 0, 0],
             Status::Rig(error) => [20, checksum(&error), 0, 0],
             Status::Springs(error) => [21, checksum(&error), 0, 0],
+            Status::Inverse(error) => [32, checksum(&error), 0, 0],
         }
     }
 }

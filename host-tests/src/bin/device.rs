@@ -6,8 +6,10 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::{Parser, Subcommand, ValueEnum as _};
+use octruss_host_tests::performance::inverse::{self, Sources};
 use octruss_host_tests::performance::skin;
 use octruss_host_tests::qemu::demo::{self, Example, Summary};
+use octruss_host_tests::qemu::holding;
 use octruss_host_tests::qemu::judge::{Subject, judge};
 use octruss_host_tests::qemu::{Machine, Run, image};
 
@@ -65,6 +67,24 @@ enum Job {
         #[arg(long)]
         model: PathBuf,
     },
+    /// Lets the finger follow goals with its volume held and without, and draws both
+    Holding {
+        /// Where the files of the run and the pictures go
+        #[arg(long)]
+        directory: PathBuf,
+        /// The folder with the example's cage, model, motion and what its controller is baked from
+        #[arg(long, default_value = "models")]
+        models: PathBuf,
+    },
+    /// Counts the instructions of ticks of the goals' solver
+    Goals {
+        /// Where the files of the run go
+        #[arg(long)]
+        directory: PathBuf,
+        /// The folder with the example's cage, model, motion and what its controller is baked from
+        #[arg(long, default_value = "models")]
+        models: PathBuf,
+    },
     /// Prints instructions a tap
     Bench,
     /// Moves a surface by its table and refines it on the device, frame by frame: how far the two are
@@ -101,6 +121,8 @@ fn main() -> ExitCode {
             cage,
             model,
         } => play(directory, cage, model),
+        Job::Holding { directory, models } => hold(&directory, models),
+        Job::Goals { directory, models } => goals(&directory, models),
         Job::Bench => bench(),
         Job::Skin {
             directory,
@@ -185,6 +207,37 @@ fn compare_skins(directory: &Path, mesh: &Path, motion: &Path) -> Result<bool, d
     let figures = skin::figures(directory)?;
     println!("{}", skin::section(&made, &figures)?);
     Ok(true)
+}
+
+/// The volume may be off by this part in a frame.
+const VOLUME_LIMIT: f64 = 1e-4;
+
+fn sources(models: PathBuf) -> Sources {
+    Sources {
+        cage: models.join("finger.msh"),
+        model: models.join("finger.obj"),
+        motion: models.join("finger-motion.csv"),
+        folder: models,
+    }
+}
+
+fn goals(directory: &Path, models: PathBuf) -> Result<bool, demo::Failure> {
+    std::fs::create_dir_all(directory)?;
+    let made = inverse::make(directory, &sources(models))?;
+    println!(
+        "{}",
+        inverse::section(&made, &inverse::figures(directory)?)?
+    );
+    Ok(true)
+}
+
+fn hold(directory: &Path, models: PathBuf) -> Result<bool, demo::Failure> {
+    let sources = sources(models);
+    let runs = holding::play(directory, &sources)?;
+    print!("{}", holding::draw(directory, &sources, &runs)?);
+    let [held, free] = runs.map(|run| run.iter().map(|own| own.error.abs()).fold(0.0, f64::max));
+    println!("greatest error of the volume: {held:.2e} held, {free:.2e} free");
+    Ok(held <= VOLUME_LIMIT)
 }
 
 fn bench() -> Result<bool, demo::Failure> {

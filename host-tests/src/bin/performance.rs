@@ -1,5 +1,5 @@
 //! Measures the apply beside its rivals and writes `docs/performance.md`. `cargo xtask bench` calls it; it
-//! expects the images `rivals`, `refine`, `volume` and `skin` to be built.
+//! expects the images `rivals`, `refine`, `volume`, `skin` and `inverse` to be built.
 
 use std::fs;
 use std::hint::black_box;
@@ -15,7 +15,7 @@ use octruss_host_tests::performance::cycles::{
 };
 use octruss_host_tests::performance::input::{Failure, Inputs, make};
 use octruss_host_tests::performance::page::{Line, Measured, page};
-use octruss_host_tests::performance::{skin, volume};
+use octruss_host_tests::performance::{inverse, skin, volume};
 use octruss_host_tests::qemu::{Machine, Run, image};
 
 /// The shift of the instruction clock at which counts are exact.
@@ -74,8 +74,16 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
         &arguments.skin,
         &arguments.skin_motion,
     )?;
+    let folder = arguments.cage.parent().unwrap_or(Path::new(""));
+    let sources = inverse::Sources {
+        cage: arguments.cage.clone(),
+        model: arguments.model.clone(),
+        motion: arguments.motion.clone(),
+        folder: folder.to_owned(),
+    };
+    let controlled = inverse::make(&arguments.directory, &sources)?;
     let run = || -> Result<Figures, Failure> {
-        let images = ["rivals", "refine", "volume", "skin"];
+        let images = ["rivals", "refine", "volume", "skin", "inverse"];
         let all: Result<Vec<_>, _> = images
             .map(|name| figures(arguments, name))
             .into_iter()
@@ -124,6 +132,7 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
     let mut text = page(&measured);
     text += &volume::section(&enclosed, &first)?;
     text += &skin::section(&surface, &first)?;
+    text += &inverse::section(&controlled, &first)?;
     println!("{text}");
     fs::write(&arguments.output, text)?;
     Ok(is_repeatable)

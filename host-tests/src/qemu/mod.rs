@@ -22,6 +22,7 @@
 pub mod conformance;
 pub mod demo;
 mod error;
+pub mod holding;
 pub mod judge;
 mod log;
 

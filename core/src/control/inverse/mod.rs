@@ -19,7 +19,7 @@
 //! 1. forms `b = A (goal - rest)` and the box: bounds, cut with the rate and the trusted reach;
 //! 2. takes the volume's value and gradient `g` at the amplitudes before, once;
 //! 3. descends coordinate by coordinate, each to the exact minimum of its parabola cut to the box: at most
-//!    [`SWEEPS`] sweeps. Beside the amplitudes the same rows of `H` refine `y`, the free amplitudes' answer to the
+//!    [`SWEEPS`] sweeps, or [`SWEEPS_WITHOUT_VOLUME`]. Beside the amplitudes the same rows of `H` refine `y`, the free amplitudes' answer to the
 //!    volume's multiplier (`H y = g`), so that after every sweep one Newton step sets the multiplier to where
 //!    the linearised volume reaches its target;
 //! 4. evaluates the volume, and goes along `y` by the secant method until it is right: at most [`EVALUATIONS`]
@@ -29,6 +29,37 @@
 //!
 //! Amplitudes, `y` and the multiplier are kept from tick to tick ([`InverseState`]), so ticks with the same
 //! goals converge to a point that satisfies the optimality conditions of the whole problem.
+//!
+//! # The smallest controller
+//!
+//! ```
+//! use octruss::bundle::Bundle;
+//! use octruss::control::inverse::{Inverse, InverseState, VolumeGoal};
+//! use octruss::enclosed::VolumeModes;
+//!
+//! # fn main() { let _ = (open, tick); }
+//! /// Opened once, in flash: what was baked with `--actuators`, `--effectors` and `--volume`.
+//! fn open(flash: &'static [u8]) -> Option<(Inverse<'static>, VolumeModes<'static>)> {
+//!     let bundle = Bundle::new_checked(flash).ok()?;
+//!     Some((bundle.inverse::<i32>().ok()??, bundle.volume_modes::<i32>(0).ok()??))
+//! }
+//!
+//! /// On every tick: goals in, amplitudes in `state`; whether the volume is right.
+//! fn tick(
+//!     solver: &Inverse,
+//!     modes: &VolumeModes,
+//!     volume: i64,
+//!     goals: &[[i32; 3]],
+//!     state: &mut InverseState,
+//! ) -> bool {
+//!     use octruss::control::inverse::GaveUp;
+//!     let hold = Some((modes, VolumeGoal::Hold(volume)));
+//!     match solver.tick(goals, hold, state) {
+//!         Ok(report) => !report.gave_up.contains(GaveUp::VOLUME_MISSED),
+//!         Err(_) => false, // a slice of the wrong length, or modes of another solver
+//!     }
+//! }
+//! ```
 //!
 //! # The number format
 //!
@@ -53,7 +84,7 @@ pub use error::InverseError;
 pub use report::{GaveUp, InverseReport, VolumeGoal};
 pub use section::InverseRecord;
 pub use state::InverseState;
-pub use tick::{EVALUATIONS, SWEEPS, TOLERANCE_BITS};
+pub use tick::{EVALUATIONS, SWEEPS, SWEEPS_WITHOUT_VOLUME, TOLERANCE_BITS};
 
 #[cfg(test)]
 mod tests;

@@ -9,8 +9,10 @@ use super::state::InverseState;
 use crate::coord::{Coordinate, round_shift};
 use crate::enclosed::VolumeModes;
 
-/// Sweeps of a tick at most.
+/// Sweeps of a tick with a volume at most.
 pub const SWEEPS: u32 = 8;
+/// Sweeps of a tick without a volume at most: they take less time, and so does the tick.
+pub const SWEEPS_WITHOUT_VOLUME: u32 = 24;
 /// Evaluations of the volume in a tick at most, beside the one that also gives its gradient.
 pub const EVALUATIONS: u32 = 4;
 /// The volume may be off by `2^-` this of its target: less than 1e-4.
@@ -145,7 +147,11 @@ impl Inverse<'_> {
 impl Problem<'_, '_> {
     fn descend(&self, point: &mut Point, report: &mut InverseReport) {
         let mut swept = Swept::default();
-        for sweeps in 1..=SWEEPS {
+        let most = match self.need {
+            Some(_) => SWEEPS,
+            None => SWEEPS_WITHOUT_VOLUME,
+        };
+        for sweeps in 1..=most {
             swept = self.sweep(point);
             report.sweeps = sweeps;
             if swept.greatest <= SETTLED {

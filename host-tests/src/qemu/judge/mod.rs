@@ -7,6 +7,7 @@
 mod apply;
 mod box_spline;
 mod data;
+mod inverse;
 mod mixed;
 mod rig;
 mod scalars;
@@ -86,6 +87,10 @@ pub enum Subject {
     Springs,
     /// Control points on springs, shaken at random
     Shakes,
+    /// Amplitudes for goals while a volume is held
+    Inverse,
+    /// Amplitudes for measured points, without a volume
+    Sensors,
 }
 
 impl Subject {
@@ -119,6 +124,8 @@ impl Subject {
             Subject::Turn => rig::turn(seed),
             Subject::Springs => springs::case(seed),
             Subject::Shakes => springs::shakes(seed),
+            Subject::Inverse => inverse::case(seed, true),
+            Subject::Sensors => inverse::case(seed, false),
         }
     }
 }
