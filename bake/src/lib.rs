@@ -11,6 +11,7 @@
 //! * [`locate`]: which refined cell holds a point, and the point's coordinates in it.
 //! * [`table`]: the weights of every model point on the control points, as integers, with a proved
 //!   bound of their error.
+//! * [`dynamics`]: rigs and springs, which move the control points.
 //! * [`pack`]: rows in groups, in the order in which the kernels read them.
 //! * [`forms`]: the exact volume that a subdivision surface encloses, and its moments.
 //! * [`bundle`]: the bytes for the device's flash.
@@ -26,6 +27,7 @@ pub mod animation;
 pub mod bundle;
 pub mod check;
 pub mod deform;
+pub mod dynamics;
 pub mod error;
 pub mod forms;
 pub mod geometry;

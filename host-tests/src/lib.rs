@@ -24,7 +24,7 @@
 //! - [`reference_rig`] is the rig written again, in integers of any length; [`random_rig`] draws rigs and
 //!   commands.
 //! - [`reference_springs`] is the springs written again in the same way; [`random_springs`] draws springs,
-//!   states, pushes and obstacles.
+//!   states, pushes and obstacles, [`shaken_block`] what is shaken for hours.
 //! - [`reference_control`] is the goals' solver written again, in integers of 128 bits;
 //!   [`random_inverse`] draws solvers, goals and volumes to hold.
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
@@ -64,6 +64,7 @@ pub mod reference_rig;
 pub mod reference_springs;
 pub mod reference_surface;
 pub mod reference_volume;
+pub mod shaken_block;
 pub mod snapshot;
 pub mod spectrum;
 pub mod subject;

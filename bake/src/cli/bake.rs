@@ -4,6 +4,8 @@ use super::scheme as schemes;
 use super::{
     any_scheme::AnyScheme, bake_surface, print_figures, progress::Bars, show_notes, source,
 };
+use octruss_bake::dynamics::Dynamics;
+use octruss_bake::dynamics::springs::Pairs;
 use octruss_bake::error::{Error, Result, count};
 use octruss_bake::inspect::{interior_edges_of_valence_3, irregular_boundary_edges};
 use octruss_bake::mesh::{Point, SolidMesh};
@@ -117,6 +119,12 @@ pub struct Arguments {
         requires = "actuators"
     )]
     damping: f64,
+    /// Also bake a skeleton that carries the control points: a file of joints, axes and weights
+    #[arg(long, value_name = "FILE")]
+    pub rig: Option<PathBuf>,
+    /// Also bake damped springs between the control points: a file of stiffness, masses and pinned vertices
+    #[arg(long, value_name = "FILE")]
+    pub springs: Option<PathBuf>,
     /// Also bake the model's faces, from which a device forms the normals of the deformed points
     #[arg(long)]
     pub normals: bool,
@@ -178,6 +186,12 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         })?,
         faces: arguments.normals.then(|| model.faces.clone()),
         solvers: Solvers::default(),
+        dynamics: Dynamics::read(
+            arguments.rig.as_deref(),
+            arguments.springs.as_deref(),
+            cage.points.len(),
+            || Ok(Pairs::of_cells(&cage.cells)),
+        )?,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

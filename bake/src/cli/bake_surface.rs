@@ -2,9 +2,11 @@
 
 use super::bake::{Arguments, modes, regions, write_sources};
 use super::{print_figures, progress::Bars, show_notes};
+use octruss_bake::dynamics::Dynamics;
+use octruss_bake::dynamics::springs::Pairs;
 use octruss_bake::error::{Error, Result};
 use octruss_bake::read;
-use octruss_bake::surface::SurfaceScheme;
+use octruss_bake::surface::{SurfaceLevel, SurfaceScheme};
 use octruss_bake::table::Request;
 use octruss_bake::table::surface::{SurfaceOptions, bake_surface};
 use octruss_bake::write::{self, Prepared};
@@ -38,6 +40,12 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
             Err(Error::new("the modes of a surface are read from a .csv"))
         })?,
         normals: arguments.normals,
+        dynamics: Dynamics::read(
+            arguments.rig.as_deref(),
+            arguments.springs.as_deref(),
+            mesh.points.len(),
+            || Ok(Pairs::of_faces(SurfaceLevel::new(&mesh)?.faces())),
+        )?,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

@@ -23,6 +23,7 @@ pub use volume::{CentroidReport, ModesReport, Region, VolumeReport};
 
 use crate::bundle::{self, Contents, LONGEST_UNIT};
 use crate::check::{self, Volumes};
+use crate::dynamics::Dynamics;
 use crate::error::{Error, Result, count};
 use crate::locate::{Embedding, Locator, Nearest};
 use crate::mesh::{Point, SolidMesh};
@@ -79,6 +80,8 @@ pub struct Options {
     /// Also bake the faces of the model, for the normals of its points: each the points round a face, counter-
     /// clockwise from outside. None by default.
     pub faces: Option<Vec<Vec<u32>>>,
+    /// What moves the control points.
+    pub dynamics: Dynamics,
     /// How the format of the table is chosen.
     pub request: Request,
     /// Random poses on which the table's error is measured.
@@ -102,6 +105,7 @@ impl Default for Options {
             centroid: false,
             solvers: inverse::Solvers::default(),
             faces: None,
+            dynamics: Dynamics::default(),
             request: Request::default(),
             random_poses: 4,
             seed: 0,
@@ -208,6 +212,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
             Some(report)
         }
     };
+    sections.extend(options.dynamics.sections(format, &rest_cage)?);
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,

@@ -8,6 +8,7 @@ use super::format::Format;
 use super::volume::{self, Region, VolumeReport};
 use super::{TapsReport, require_unit};
 use crate::bundle::{self, Contents};
+use crate::dynamics::Dynamics;
 use crate::error::{Error, Result, count};
 use crate::mesh::Point;
 use crate::pack::normals::{self, NormalsReport};
@@ -41,6 +42,8 @@ pub struct SurfaceOptions {
     pub centroid: bool,
     /// Also bake the faces of the refined surface, for the normals of its points.
     pub normals: bool,
+    /// What moves the control points.
+    pub dynamics: Dynamics,
     /// Which format is taken.
     pub request: Request,
     /// Random poses on which the table's error is measured.
@@ -173,6 +176,7 @@ pub fn bake_surface(
         sections.push(section);
         report_of_normals = Some(report);
     }
+    sections.extend(options.dynamics.sections(format, &rest_cage)?);
     let bytes = bundle::write(&Contents {
         format,
         unit: &options.unit,

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
+use octruss_bake::dynamics::Dynamics;
 use octruss_bake::mesh::Point;
 use octruss_bake::progress::Silent;
 use octruss_bake::read;
@@ -56,6 +57,7 @@ pub fn make(directory: &Path, mesh_file: &Path, motion_file: &Path) -> Result<Sk
         modes: Vec::new(),
         centroid: false,
         normals: false,
+        dynamics: Dynamics::default(),
         request: Request {
             format: Some(TableFormat::Q30),
             keep_order: true,

@@ -22,6 +22,35 @@
 //! nothing is carried over, nothing drifts. Only differences of rest positions are rotated, so moving the
 //! base, or the whole rig at rest, by whole units moves every control point by these units, to the bit.
 //!
+//! # Example
+//!
+//! A shoulder and an elbow that turn about z carry a hand; bundles hold such a rig ready-made
+//! ([`Bundle::rig`](crate::bundle::Bundle::rig)).
+//!
+//! ```
+//! use octruss::control::rig::{
+//!     Frame, Influence, Joint, NO_PARENT, QUARTER_TURN, Rig, RigError, RigParts, WEIGHT_ONE,
+//! };
+//!
+//! # fn main() -> Result<(), RigError> {
+//! let axis = [0, 0, 1 << 30];
+//! let joints = [
+//!     Joint { parent: NO_PARENT, pivot: [0, 0, 0], axis },
+//!     Joint { parent: 0, pivot: [100, 0, 0], axis },
+//! ];
+//! let rig = Rig::new_checked(RigParts {
+//!     joints: &joints,
+//!     rest: &[[150, 0, 0]],
+//!     starts: &[0, 1],
+//!     influences: &[Influence { joint: 1, weight: WEIGHT_ONE }],
+//! })?;
+//! let (mut frames, mut pose) = ([Frame::default(); 2], [[0_i32; 3]]);
+//! rig.carry(&[QUARTER_TURN, -QUARTER_TURN], [0, 0, 7], &mut frames, &mut pose)?;
+//! assert_eq!(pose, [[50, 100, 7]]);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Scaling and overflow
 //!
 //! An axis has unit length within `2^-30`, so a joint's own rotation is a rotation within `2^-26` (in the

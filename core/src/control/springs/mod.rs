@@ -35,6 +35,56 @@
 //! is the square root of the sum of its squares to the nearest whole number, `f` a multiple of `2^-30`.
 //! `L` is stored as such a length with its `s`, so that it is `l`, to the bit, at rest.
 //!
+//! # Example
+//!
+//! A mass hangs by a spring from a pinned point and is pushed against a wall; bundles hold springs
+//! ready-made ([`Bundle::springs`](crate::bundle::Bundle::springs)).
+//!
+//! ```
+//! use octruss::control::springs::{
+//!     Drive, FACTOR_ONE, Obstacle, PointData, PointState, Shape, Spring, Springs, SpringsError,
+//!     SpringsParts,
+//! };
+//!
+//! # fn main() -> Result<(), SpringsError> {
+//! let springs = Springs::new_checked(SpringsParts {
+//!     points: &[
+//!         PointData { mobility: 0, anchor: 0 },
+//!         PointData { mobility: FACTOR_ONE, anchor: 0 },
+//!     ],
+//!     springs: &[Spring {
+//!         points: [0, 1],
+//!         length: 1000 << 12,
+//!         length_shift: 0,
+//!         share: 0,
+//!         stretch: FACTOR_ONE / 2,
+//!         shape: FACTOR_ONE / 50,
+//!     }],
+//!     substeps: 4,
+//!     drag: FACTOR_ONE / 50,
+//!     damping: 0,
+//!     push_shift: 12,
+//!     gravity: [0, 0, 0],
+//! })?;
+//! let rest = [[0, 0, 0], [0, 0, -1000]];
+//! let wall = Shape::Plane { point: [300, 0, 0], normal: [-(1 << 16), 0, 0] };
+//! let obstacles = [Obstacle { shape: wall, grip: 0 }];
+//! let (mut state, mut pose) = ([PointState::default(); 2], rest);
+//! springs.start(&rest, &mut state)?;
+//! let mut drive = Drive { goals: &rest, pushes: &[[0, 0, 0], [40, 0, 0]], obstacles: &obstacles };
+//! for _ in 0..50 {
+//!     springs.tick(&drive, &mut state, &mut pose)?;
+//! }
+//! assert_eq!((pose[0], pose[1][0]), ([0, 0, 0], 300)); // held by the wall
+//! drive.pushes = &[];
+//! for _ in 0..500 {
+//!     springs.tick(&drive, &mut state, &mut pose)?;
+//! }
+//! assert_eq!(pose, rest); // back at rest, to the bit
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Scaling and overflow
 //!
 //! Positions are within `2^43`, differences within `2^44`, a spring's change within `2^45` (its factors
