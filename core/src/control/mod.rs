@@ -6,10 +6,13 @@
 //!
 //! * [`inverse`]: amplitudes of a few actuation modes that bring points of the model to their goals while the
 //!   enclosed volume is held; or, the other way round, the amplitudes that measured points tell of.
+//! * [`project`]: the nearest pose to a goal for every control point, under pins, boxes, rates and the volumes of
+//!   regions.
 //! * [`rig`]: a skeleton of joints that carries control points.
 //! * [`springs`]: the control points as masses on damped springs that strive for a goal shape, are pushed
 //!   and hit things.
 
 pub mod inverse;
+pub mod project;
 pub mod rig;
 pub mod springs;
