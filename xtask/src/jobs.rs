@@ -135,6 +135,7 @@ const HOST_PROOFS: [(&str, &str); 13] = [
     ("host: surfaces", "surfaces_exact"),
     ("host: boundaries as surfaces", "tri_quad_boundary"),
     ("host: enclosed volume", "enclosed"),
+    ("host: projected poses", "project"),
     ("host: tables", "table"),
     ("host: tables in every format", "tables_exact"),
     ("host: scalars", "scalars"),

@@ -7,8 +7,14 @@ use rand_chacha::rand_core::SeedableRng as _;
 
 use super::{Expected, Judged, bits, word};
 use crate::qemu::conformance::Section;
+<<<<<<< HEAD
 use crate::random_volume::{CentroidCase, ModesCase, VolumeCase};
 use crate::reference_volume::{self, VolumeTable, modes};
+=======
+use crate::random_volume::{ModesCase, VolumeCase};
+use crate::reference_volume::modes;
+use crate::sections;
+>>>>>>> bfdbf90 (Projected poses: the reference written again, equality on random problems, what is given up and refused)
 
 /// Control points of a region.
 const POINTS: u16 = 24;
@@ -16,7 +22,7 @@ const POINTS: u16 = 24;
 /// A form's case of a seed. One of every ten is damaged.
 pub(super) fn form(seed: u32) -> Judged {
     let VolumeCase { table, pose } = VolumeCase::new(u64::from(seed), POINTS);
-    let section = section(&table);
+    let section = sections::volume_form(&table);
     let mut words = vec![word(pose.len()), word(section.len())];
     words.extend(section.chunks(4).map(|chunk| {
         let mut bytes = [0; 4];
@@ -106,35 +112,4 @@ fn judged(kind: u32, seed: u32, words: Vec<u32>, expected: Expected) -> Judged {
     } else {
         judged
     }
-}
-
-/// The form as it lies in a bundle: the layout of `octruss::enclosed::VolumeRecord`.
-fn section(table: &VolumeTable) -> Vec<u8> {
-    let mut pairs = table.empty_pairs.clone();
-    let mut starts = vec![0; pairs.len()];
-    for (place, ([i, j, _], _)) in table.taps.iter().enumerate() {
-        if pairs.last() != Some(&[*i, *j]) {
-            pairs.push([*i, *j]);
-            starts.push(word(place));
-        }
-    }
-    starts.push(word(table.taps.len()));
-    let record = [
-        word(table.points.len()),
-        word(pairs.len()),
-        word(table.taps.len()),
-        table.difference_shift,
-        table.pair_bits,
-        table.volume_shift,
-        table.gradient_bits,
-        0,
-    ];
-    let weights = table.taps.iter().map(|(_, weight)| weight.cast_unsigned());
-    let wide = record.into_iter().chain(weights).chain(starts);
-    let thirds = table.taps.iter().map(|([_, _, third], _)| *third);
-    let narrow = pairs.into_iter().flatten();
-    let narrow = narrow.chain(table.points.iter().copied()).chain(thirds);
-    wide.flat_map(u32::to_le_bytes)
-        .chain(narrow.flat_map(u16::to_le_bytes))
-        .collect()
 }
