@@ -24,15 +24,11 @@
 //! - [`reference_rig`] is the rig written again, in integers of any length; [`random_rig`] draws rigs and
 //!   commands.
 //! - [`reference_springs`] is the springs written again in the same way; [`random_springs`] draws springs,
-<<<<<<< HEAD
 //!   states, pushes and obstacles, [`shaken_block`] what is shaken for hours.
 //! - [`reference_control`] is the goals' solver written again, in integers of 128 bits;
 //!   [`random_inverse`] draws solvers, goals and volumes to hold.
-=======
-//!   states, pushes and obstacles.
 //! - [`reference_project`] is the projection of poses written again; [`random_project`] draws its problems, and
 //!   [`sections`] lays forms and limits out as in a bundle.
->>>>>>> bfdbf90 (Projected poses: the reference written again, equality on random problems, what is given up and refused)
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
 //! - [`reference_mixed`] is Hakenberg's scheme for mixed solids written again in the same way;
 //!   [`random_mixed`] draws mixed solids, and [`mixed_subject`] drives the crate under test on
@@ -72,11 +68,7 @@ pub mod reference_rig;
 pub mod reference_springs;
 pub mod reference_surface;
 pub mod reference_volume;
-<<<<<<< HEAD
 pub mod shaken_block;
-=======
-pub mod sections;
->>>>>>> bfdbf90 (Projected poses: the reference written again, equality on random problems, what is given up and refused)
 pub mod snapshot;
 pub mod spectrum;
 pub mod subject;

@@ -72,7 +72,11 @@ impl Combined {
             for subset in 1_u32..16 {
                 let members = (0..4).filter(|place| subset >> place & 1 == 1);
                 let chosen: Vec<usize> = members.map(|place| four[place]).collect();
-                let sign = if chosen.len() % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = if chosen.len().is_multiple_of(2) {
+                    1.0
+                } else {
+                    -1.0
+                };
                 let value = known
                     .entry(chosen)
                     .or_insert_with_key(|chosen| moment(&self.sum(chosen)));
@@ -187,11 +191,11 @@ impl DeviceCentroid {
         }
         // The shift of a quotient is at most 60; small moments need not be finer than that.
         exponent = exponent.clamp(volume.exponent - 61, volume.exponent + 59);
+        let coefficients = moments.coefficients.iter();
         #[expect(
             clippy::cast_possible_truncation,
             reason = "magnitudes add up to less than 2^30"
         )]
-        let coefficients = moments.coefficients.iter();
         let coefficients = coefficients
             .flat_map(|axis| scaled(axis, exponent))
             .map(|rounded| rounded as i32)

@@ -7,14 +7,9 @@ use rand_chacha::rand_core::SeedableRng as _;
 
 use super::{Expected, Judged, bits, word};
 use crate::qemu::conformance::Section;
-<<<<<<< HEAD
 use crate::random_volume::{CentroidCase, ModesCase, VolumeCase};
-use crate::reference_volume::{self, VolumeTable, modes};
-=======
-use crate::random_volume::{ModesCase, VolumeCase};
-use crate::reference_volume::modes;
+use crate::reference_volume::{self, modes};
 use crate::sections;
->>>>>>> bfdbf90 (Projected poses: the reference written again, equality on random problems, what is given up and refused)
 
 /// Control points of a region.
 const POINTS: u16 = 24;
