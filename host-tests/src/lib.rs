@@ -68,6 +68,7 @@ pub mod reference_rig;
 pub mod reference_springs;
 pub mod reference_surface;
 pub mod reference_volume;
+pub mod sections;
 pub mod shaken_block;
 pub mod snapshot;
 pub mod spectrum;

@@ -113,13 +113,13 @@ impl Problem {
     /// Change of a region's linear volume, and its slope.
     fn change(&self, regions: &[Region<'_>], own: usize, current: &[i128]) -> (i128, i128) {
         let (mut value, mut slope) = (0, 0);
-        for place in 0..current.len() {
+        for (place, now) in current.iter().enumerate() {
             let gradient = regions[own].gradient[place];
             if gradient == 0 {
                 continue;
             }
             let free = self.free(regions, place);
-            value += gradient * (self.clamp(place, free) - current[place]);
+            value += gradient * (self.clamp(place, free) - now);
             if self.lower[place] < free && free < self.upper[place] {
                 slope += gradient * self.direction(&regions[own], place);
             }

@@ -41,7 +41,7 @@ struct Arguments {
 enum Command {
     Info(info::Arguments),
     Refine(refine::Arguments),
-    Bake(bake::Arguments),
+    Bake(Box<bake::Arguments>),
     Deform(deform::Arguments),
     Locate(locate::Arguments),
     Slice(slice::Arguments),
