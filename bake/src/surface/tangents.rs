@@ -20,7 +20,9 @@ fn dot(one: &Point, other: &Point) -> f64 {
 
 /// Along a vector; zero for zero.
 fn unit(vector: Point) -> Point {
-    let length = dot(&vector, &vector).sqrt();
+    // Squares of small numbers underflow.
+    let [x, y, z] = vector;
+    let length = x.hypot(y).hypot(z);
     if length > 0.0 {
         vector.map(|coordinate| coordinate / length)
     } else {
