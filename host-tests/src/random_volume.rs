@@ -97,11 +97,11 @@ pub struct CentroidCase {
 }
 
 impl CentroidCase {
-    /// The case of a seed, with up to 9 modes; volumes and shifts are anywhere, at the ends of their
+    /// The case of a seed, with up to 8 modes, which an image has room for; volumes and shifts are anywhere, at the ends of their
     /// range, or such that the quotient is about as large as a coordinate.
     pub fn new(seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let modes = rng.random_range(0..=9_usize);
+        let modes = rng.random_range(0..=8_usize);
         let count = (modes + 1) * (modes + 2) * (modes + 3) * (modes + 4) / 24;
         let mut coefficients = Vec::new();
         for _ in 0..3 {
