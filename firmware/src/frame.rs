@@ -28,7 +28,7 @@ pub const ROW_BYTES: usize = 12;
 pub const TRAILER_BYTES: usize = 8;
 
 /// A `static`, so that the table it looks up lies in flash once.
-static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+pub(crate) static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// Writes one frame.
 ///

@@ -25,6 +25,7 @@ pub mod cases;
 mod example;
 pub mod exit;
 pub mod frame;
+pub mod link;
 pub mod player;
 pub mod tick;
 

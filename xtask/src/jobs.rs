@@ -128,7 +128,7 @@ pub fn ci() -> Result<(), Failure> {
 }
 
 /// The host's tests against the reference, which take more random cases in the long proofs.
-const HOST_PROOFS: [(&str, &str); 14] = [
+const HOST_PROOFS: [(&str, &str); 15] = [
     ("host: tetrahedra and octahedra", "equality"),
     ("host: box splines", "box_spline_equality"),
     ("host: mixed solids", "mixed_equality"),
@@ -143,6 +143,7 @@ const HOST_PROOFS: [(&str, &str); 14] = [
     ("host: rigs", "rig"),
     ("host: springs", "springs"),
     ("host: goals", "control_inverse"),
+    ("host: frames", "link"),
 ];
 
 /// The long proofs.
