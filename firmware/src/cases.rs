@@ -60,12 +60,14 @@
 //! | [`SECTION_LABELS`] | level, the label of each tetrahedron at that level; then the same of octahedra |
 //! | [`SECTION_LIMIT_NORMALS`] | level, how many are zero, x y z of the limit normal of each corner of each face (Doo-Sabin: of each face) at that level |
 //! | [`SECTION_INVERSE`] | see [`inverse`] |
+//! | [`SECTION_PROJECT`] | see [`project`] |
 
 pub mod apply;
 pub mod box_spline;
 pub mod data;
 pub mod inverse;
 pub mod mixed;
+pub mod project;
 pub mod refine;
 mod results;
 pub mod rig;
@@ -148,6 +150,8 @@ pub const SHAKES: u32 = 43;
 pub const INVERSE: u32 = 32;
 /// Kind of a case: find amplitudes for measured points.
 pub const SENSORS: u32 = 33;
+/// Kind of a case: find the nearest pose under limits and volumes.
+pub const PROJECT: u32 = 35;
 
 /// Tag of the section that ends a case.
 pub const SECTION_END: u32 = 0;
@@ -191,6 +195,8 @@ pub const SECTION_RIG: u32 = 40;
 pub const SECTION_SPRINGS: u32 = 42;
 /// Tag of a section with the amplitudes and the report of a tick.
 pub const SECTION_INVERSE: u32 = 32;
+/// Tag of a section with a projected pose and its report.
+pub const SECTION_PROJECT: u32 = 35;
 
 /// Runs one case: `words` is what follows its header. Results go to `results`, whatever happens.
 ///
@@ -221,6 +227,7 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         SHAKES => springs::run_shakes(words, memory.space(), results),
         INVERSE => inverse::run(words, results),
         SENSORS => inverse::run_sensors(words, results),
+        PROJECT => project::run(words, memory.space(), results),
         _ => Err(Status::Malformed),
     };
     results.end(done.err().unwrap_or(Status::Done));
@@ -247,6 +254,12 @@ impl<'a> Words<'a> {
     /// The next word as a length.
     fn length(&mut self) -> Result<usize, Status> {
         usize::try_from(self.word()?).map_err(|_| Status::Malformed)
+    }
+
+    /// The next signed number of 64 bits, the low word first.
+    fn number(&mut self) -> Result<i64, Status> {
+        let [low, high] = [self.word()?, self.word()?].map(u64::from);
+        Ok((low | (high << 32)).cast_signed())
     }
 
     /// The next `count` elements of `N` words.

@@ -30,7 +30,7 @@ pub(super) fn run<S: Sink>(words: &[u32], results: &mut Results<'_, S>) -> Resul
     let solver = solver(&mut words)?;
     let coefficients = words.length()?;
     let coefficients = words.numbers(coefficients)?;
-    let goal = match (number(&mut words)?, number(&mut words)?) {
+    let goal = match (words.number()?, words.number()?) {
         (low, high) if low == high => VolumeGoal::Hold(low),
         (low, high) => VolumeGoal::Band(low, high),
     };
@@ -53,12 +53,6 @@ fn solver<'a>(words: &mut Words<'a>) -> Result<Inverse<'a>, Status> {
     let section = words.length()?;
     let section = words.elements::<1>(section)?;
     Inverse::from_section(section.as_bytes()).map_err(Status::Inverse)
-}
-
-/// A number of 64 bits, the low word first.
-fn number(words: &mut Words<'_>) -> Result<i64, Status> {
-    let [low, high] = [words.word()?, words.word()?].map(u64::from);
-    Ok((low | (high << 32)).cast_signed())
 }
 
 fn ticks<S: Sink>(

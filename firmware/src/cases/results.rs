@@ -5,6 +5,7 @@ use core::fmt;
 use crc::Digest;
 use octruss::bundle::BundleError;
 use octruss::control::inverse::InverseError;
+use octruss::control::project::ProjectError;
 use octruss::control::rig::RigError;
 use octruss::control::springs::SpringsError;
 use octruss::deform::ApplyError;
@@ -57,6 +58,8 @@ pub enum Status {
     Springs(SpringsError),
     /// 32: the goals' solver is unsound or cannot be run; the detail is the CRC-32 of the error's message.
     Inverse(InverseError),
+    /// 35: the limits are unsound or a pose cannot be projected; the detail is the CRC-32 of the error's message.
+    Project(ProjectError),
 }
 
 impl Status {
@@ -81,6 +84,7 @@ impl Status {
             Status::Rig(error) => [20, checksum(&error), 0, 0],
             Status::Springs(error) => [21, checksum(&error), 0, 0],
             Status::Inverse(error) => [32, checksum(&error), 0, 0],
+            Status::Project(error) => [35, checksum(&error), 0, 0],
         }
     }
 }

@@ -9,6 +9,7 @@ mod box_spline;
 mod data;
 mod inverse;
 mod mixed;
+mod project;
 mod rig;
 mod scalars;
 pub mod springs;
@@ -91,6 +92,8 @@ pub enum Subject {
     Inverse,
     /// Amplitudes for measured points, without a volume
     Sensors,
+    /// The nearest poses under pins, boxes, rates and volumes
+    Project,
 }
 
 impl Subject {
@@ -126,6 +129,7 @@ impl Subject {
             Subject::Shakes => springs::shakes(seed),
             Subject::Inverse => inverse::case(seed, true),
             Subject::Sensors => inverse::case(seed, false),
+            Subject::Project => project::case(seed),
         }
     }
 }
