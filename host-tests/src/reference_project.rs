@@ -290,7 +290,9 @@ pub fn project(
         .map(|table| held(table, &mut result))
         .collect();
     for region in &mut held {
-        region.volume = i128::from(region.table.form.evaluate(&pose_of(&current)).volume);
+        let enclosed = region.table.form.evaluate(&pose_of(&current));
+        result.gave_up[6] |= enclosed.volume_saturated > 0;
+        region.volume = i128::from(enclosed.volume);
     }
     if !held.is_empty() {
         result.gave_up[5] = !steps(
@@ -367,15 +369,17 @@ fn steps(
         let mut taken = None;
         for _ in 0..5 {
             let pose = pose_of(&candidate);
-            let volumes: Vec<i128> = held
+            let enclosed: Vec<_> = held
                 .iter()
-                .map(|region| i128::from(region.table.form.evaluate(&pose).volume))
+                .map(|region| region.table.form.evaluate(&pose))
                 .collect();
+            let volumes: Vec<i128> = enclosed.iter().map(|own| i128::from(own.volume)).collect();
             let after = held
                 .iter()
                 .zip(&volumes)
                 .map(|(region, &volume)| region.excess(volume));
             if after.max() <= before {
+                result.gave_up[6] |= enclosed.iter().any(|own| own.volume_saturated > 0);
                 taken = Some(volumes);
                 break;
             }

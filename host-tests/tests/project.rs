@@ -127,6 +127,10 @@ fn equals_the_reference_bit_for_bit() {
         coordinates += 3 * got.pose.len();
         met += case.regions.len() as u32 - got.missed.count_ones();
         missed += got.missed.count_ones();
+        // A volume that was clamped is said to be, wherever the steps end.
+        let mut forms = case.regions.iter().map(|region| &region.form);
+        let is_clamped = forms.any(|form| form.evaluate(&got.pose).volume_saturated > 0);
+        assert!(!is_clamped || got.gave_up[6], "seed {seed}: {got:?}");
         for (count, gave_up) in reasons.iter_mut().zip(got.gave_up) {
             *count += u32::from(gave_up);
         }

@@ -212,6 +212,9 @@ impl<'a> Run<'a> {
                 .volume(self.scratch.current, workspace)
                 .map_err(ProjectError::Enclosed)?;
             held.volume = enclosed.volume;
+            if enclosed.saturated > 0 {
+                self.gave_up = self.gave_up | GaveUp::SATURATED;
+            }
         }
         Ok(())
     }
@@ -357,6 +360,7 @@ impl<'a> Run<'a> {
         for _ in 0..=HALVINGS {
             let mut volumes = [0; MOST_REGIONS];
             let mut excess = 0;
+            let mut is_clamped = false;
             for ((held, region), volume) in self.held.iter().zip(self.regions).zip(&mut volumes) {
                 let workspace = cut(self.scratch.form_workspace, region.form.workspace_length())?;
                 let enclosed = region
@@ -364,9 +368,13 @@ impl<'a> Run<'a> {
                     .volume(self.scratch.candidate, workspace)
                     .map_err(ProjectError::Enclosed)?;
                 *volume = enclosed.volume;
+                is_clamped |= enclosed.saturated > 0;
                 excess = held.excess(enclosed.volume).max(excess);
             }
             if excess <= before {
+                if is_clamped {
+                    self.give_up(GaveUp::SATURATED);
+                }
                 let moved = greatest_change(self.scratch.current, self.scratch.candidate);
                 self.scratch.current.copy_from_slice(self.scratch.candidate);
                 for (held, volume) in self.held.iter_mut().zip(volumes) {
