@@ -78,7 +78,8 @@ pub fn ci() -> Result<(), Failure> {
     let mut steps = Steps::default();
     steps.step("set up everything", setup::run)?;
     steps.step("formatting", || {
-        Program::cargo().args(["fmt", "--all", "--check"]).run()
+        Program::cargo().args(["fmt", "--all", "--check"]).run()?;
+        no_conflict_markers()
     })?;
     steps.step("core for every target", || {
         CORE_TARGETS.iter().try_for_each(|target| {
@@ -125,6 +126,15 @@ pub fn ci() -> Result<(), Failure> {
     steps.print_times();
     println!("\nEverything holds.");
     Ok(())
+}
+
+/// A merge that was not finished leaves such lines in texts that no compiler reads.
+fn no_conflict_markers() -> Result<(), Failure> {
+    let search = ["grep", "--line-number", "-E", "^(<{7}|>{7}) "];
+    match Program::new("git").args(search).output() {
+        Some(found) => Err(format!("these lines are left of a merge:\n{found}")),
+        None => Ok(()),
+    }
 }
 
 /// The host's tests against the reference, which take more random cases in the long proofs.

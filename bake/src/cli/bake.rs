@@ -4,8 +4,8 @@ use super::scheme as schemes;
 use super::{
     any_scheme::AnyScheme, bake_surface, print_figures, progress::Bars, show_notes, source,
 };
-use octruss_bake::dynamics::Dynamics;
 use octruss_bake::dynamics::springs::Pairs;
+use octruss_bake::dynamics::{self, Dynamics};
 use octruss_bake::error::{Error, Result, count};
 use octruss_bake::inspect::{interior_edges_of_valence_3, irregular_boundary_edges};
 use octruss_bake::mesh::{Point, SolidMesh};
@@ -125,6 +125,9 @@ pub struct Arguments {
     /// Also bake damped springs between the control points: a file of stiffness, masses and pinned vertices
     #[arg(long, value_name = "FILE")]
     pub springs: Option<PathBuf>,
+    /// Also bake limits of poses, which a projection keeps: a file of pins, boxes, speeds and mobilities
+    #[arg(long, value_name = "FILE")]
+    pub limits: Option<PathBuf>,
     /// Also bake the model's faces, from which a device forms the normals of the deformed points
     #[arg(long)]
     pub normals: bool,
@@ -186,12 +189,9 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         })?,
         faces: arguments.normals.then(|| model.faces.clone()),
         solvers: Solvers::default(),
-        dynamics: Dynamics::read(
-            arguments.rig.as_deref(),
-            arguments.springs.as_deref(),
-            cage.points.len(),
-            || Ok(Pairs::of_cells(&cage.cells)),
-        )?,
+        dynamics: Dynamics::read(arguments.dynamics(), cage.points.len(), || {
+            Ok(Pairs::of_cells(&cage.cells))
+        })?,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,
@@ -226,6 +226,17 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         );
     }
     print_figures(&baked.report, arguments.json, || baked.report.to_string())
+}
+
+impl Arguments {
+    /// The files of what moves the control points.
+    pub fn dynamics(&self) -> dynamics::Files<'_> {
+        dynamics::Files {
+            rig: self.rig.as_deref(),
+            springs: self.springs.as_deref(),
+            limits: self.limits.as_deref(),
+        }
+    }
 }
 
 /// The regions whose volumes are asked for.

@@ -40,12 +40,9 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
             Err(Error::new("the modes of a surface are read from a .csv"))
         })?,
         normals: arguments.normals,
-        dynamics: Dynamics::read(
-            arguments.rig.as_deref(),
-            arguments.springs.as_deref(),
-            mesh.points.len(),
-            || Ok(Pairs::of_faces(SurfaceLevel::new(&mesh)?.faces())),
-        )?,
+        dynamics: Dynamics::read(arguments.dynamics(), mesh.points.len(), || {
+            Ok(Pairs::of_faces(SurfaceLevel::new(&mesh)?.faces()))
+        })?,
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

@@ -1,8 +1,9 @@
-//! What moves the control points, from text files to sections of a bundle: rigs and springs.
+//! What moves the control points, from text files to sections of a bundle: rigs, springs and limits.
 //!
-//! `docs/files.md` says what stands in the files. [`rig`] and [`springs`] read them; core proves their
+//! `docs/files.md` says what stands in the files. [`rig`], [`springs`] and [`limits`] read them; core proves their
 //! sections before they are written.
 
+pub mod limits;
 pub mod rig;
 pub mod springs;
 
@@ -12,6 +13,7 @@ use crate::pack::writer::Section;
 use crate::read;
 use crate::read::words::shown;
 use crate::table::format::Format;
+use limits::LimitsFile;
 use rig::RigFile;
 use springs::{Pairs, SpringsFile};
 use std::collections::BTreeSet;
@@ -26,6 +28,19 @@ pub struct Dynamics {
     pub rig: Option<(PathBuf, RigFile)>,
     /// The springs.
     pub springs: Option<(PathBuf, SpringsFile)>,
+    /// The limits of poses.
+    pub limits: Option<(PathBuf, LimitsFile)>,
+}
+
+/// The files that are given.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Files<'a> {
+    /// A rig's.
+    pub rig: Option<&'a Path>,
+    /// Springs'.
+    pub springs: Option<&'a Path>,
+    /// Limits'.
+    pub limits: Option<&'a Path>,
 }
 
 impl Dynamics {
@@ -34,21 +49,24 @@ impl Dynamics {
     /// # Errors
     /// Names the file, the line and what is wrong in it.
     pub fn read(
-        rig_file: Option<&Path>,
-        springs_file: Option<&Path>,
+        files: Files<'_>,
         vertices: usize,
         pairs: impl Fn() -> Result<Pairs>,
     ) -> Result<Self> {
         let mut dynamics = Self::default();
-        if let Some(file) = rig_file {
+        if let Some(file) = files.rig {
             let rig = read::bytes(file).and_then(|bytes| rig::read(&bytes, vertices));
             dynamics.rig = Some((file.into(), rig.map_err(|error| error.in_file(file))?));
         }
-        if let Some(file) = springs_file {
+        if let Some(file) = files.springs {
             let pairs = pairs()?;
             let springs =
                 read::bytes(file).and_then(|bytes| springs::read(&bytes, vertices, &pairs));
             dynamics.springs = Some((file.into(), springs.map_err(|error| error.in_file(file))?));
+        }
+        if let Some(file) = files.limits {
+            let limits = read::bytes(file).and_then(|bytes| limits::read(&bytes, vertices));
+            dynamics.limits = Some((file.into(), limits.map_err(|error| error.in_file(file))?));
         }
         Ok(dynamics)
     }
@@ -67,6 +85,10 @@ impl Dynamics {
         }
         if let Some((file, springs)) = &self.springs {
             let section = springs.section(format, rest);
+            sections.push(section.map_err(|error| error.in_file(file))?);
+        }
+        if let Some((file, limits)) = &self.limits {
+            let section = limits.section(format, rest);
             sections.push(section.map_err(|error| error.in_file(file))?);
         }
         Ok(sections)

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::control::inverse::InverseError;
+use crate::control::project::ProjectError;
 use crate::control::rig::RigError;
 use crate::control::springs::SpringsError;
 use crate::enclosed::EnclosedError;
@@ -77,6 +78,8 @@ pub enum BundleError {
     Rig(RigError),
     /// Springs are not sound.
     Springs(SpringsError),
+    /// Limits of poses are not sound.
+    Limits(ProjectError),
     /// A solver for goals is not sound.
     Inverse(InverseError),
     /// The faces round the point of a row are not sound: a neighbour that does not exist, too many corners,
@@ -138,6 +141,7 @@ impl fmt::Display for BundleError {
             Self::Start { row } => write!(f, "the start value of row {row} is too large"),
             Self::Volume(error) => write!(f, "the bundle's volume form is not sound: {error}"),
             Self::Rig(error) => write!(f, "the bundle's rig is not sound: {error}"),
+            Self::Limits(error) => write!(f, "the bundle's limits are not sound: {error}"),
             Self::Springs(error) => write!(f, "the bundle's springs are not sound: {error}"),
             Self::Inverse(error) => write!(f, "the bundle's solver for goals is not sound: {error}"),
             Self::Normals { row } => {

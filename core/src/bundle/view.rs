@@ -8,12 +8,13 @@ use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
     SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_CENTROID_MODES,
-    SECTION_INVERSE, SECTION_MODEL_POINTS, SECTION_NORMALS, SECTION_REST_CAGE, SECTION_RIG,
-    SECTION_SPRINGS, SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
+    SECTION_INVERSE, SECTION_LIMITS, SECTION_MODEL_POINTS, SECTION_NORMALS, SECTION_REST_CAGE,
+    SECTION_RIG, SECTION_SPRINGS, SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
 use crate::control::inverse::Inverse;
+use crate::control::project::Limits;
 use crate::control::rig::Rig;
 use crate::control::springs::Springs;
 use crate::coord::Coordinate;
@@ -215,6 +216,23 @@ impl<'a> Bundle<'a> {
         VolumeModes::from_section(bytes)
             .map(Some)
             .map_err(BundleError::Volume)
+    }
+
+    /// The limits that a projection of poses keeps; `None` if none were baked. They are proved sound here, not when
+    /// the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format,
+    /// [`BundleError::Limits`] if the limits are not sound.
+    pub fn limits<C: Coordinate>(&self) -> Result<Option<Limits<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_LIMITS, 0)? else {
+            return Ok(None);
+        };
+        Limits::from_section(bytes, self.rest_cage.len())
+            .map(Some)
+            .map_err(BundleError::Limits)
     }
 
     /// The skeleton that carries the control points; `None` if none was baked. It is proved sound here, not
