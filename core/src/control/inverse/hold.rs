@@ -40,7 +40,9 @@ impl Band {
                 is_empty: false,
             },
             VolumeGoal::Band(low, high) => {
-                let middle = cut(low).wrapping_add(cut(high)).wrapping_shr(1);
+                // The sum of both ends may have 64 bits; half of their difference has 63.
+                let (low, high) = (cut(low), cut(high));
+                let middle = low.wrapping_add(high.wrapping_sub(low).wrapping_shr(1));
                 Self {
                     low: middle,
                     high: middle,

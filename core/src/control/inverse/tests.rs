@@ -366,3 +366,13 @@ fn reciprocals_are_rounded_quotients() {
     assert_eq!(reciprocal(i32::MAX), 1 << 29);
     assert_eq!(reciprocal(0), 0);
 }
+
+/// Both ends of the band are cut to `2^62`: their sum has 64 bits, the middle has not.
+#[test]
+fn the_middle_of_an_empty_band_beyond_the_range_is_the_ranges_end() {
+    let band = super::hold::Band::new(VolumeGoal::Band(i64::MAX, (1 << 62) + 5));
+    assert!(band.is_empty);
+    assert_eq!((band.low, band.high), (1 << 62, 1 << 62));
+    let band = super::hold::Band::new(VolumeGoal::Band(7, i64::MIN));
+    assert_eq!(band.low, (7 - (1 << 62)) >> 1);
+}
