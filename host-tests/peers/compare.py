@@ -6,11 +6,10 @@ Usage: host-tests/peers/compare.py [path of the octruss binary]
 The peers are built from the sources beside this file when their headers are installed (Debian:
 libcgal-dev, libopenmesh-dev, libosd-dev and a C++ compiler); one that is missing is skipped with a
 word. Positions are compared as sets: every vertex of each result must lie within the bound of one of
-the other, since programs number vertices differently. Bounds: 1e-12 of the mesh's size against
-double precision, 1e-6 against OpenSubdiv's single precision. Limit positions and normals of Loop's and
-Catmull-Clark surfaces are held against OpenSubdiv's as well (normals: 1e-5, its tangents are of single
-precision), but for rims and creases where its masks belong to other rules. Exit status 0 only if all that ran
-agree. Needs no package but Python itself.
+the other, since programs number vertices differently. All of them compute in double precision; the bound is 1e-12
+of the mesh's size. Limit positions and normals of Loop's and Catmull-Clark surfaces are held against
+OpenSubdiv's as well (normals, of length one, within 1e-12), but for rims and creases where its masks belong to
+other rules. Exit status 0 only if all that ran agree. Needs no package but Python itself.
 """
 import itertools
 import math
@@ -41,7 +40,7 @@ PEERS = {
         "opensubdiv/far/primvarRefiner.h",
         ["-losdCPU"],
         {"loop": False, "catmull-clark": False},
-        1e-6,
+        1e-12,
     ),
 }
 TRIANGLES = {"loop", "sqrt3"}
@@ -242,8 +241,8 @@ def run_limits(octruss, program, folder):
             size = max(math.dist(p, q) for p in points for q in points)
             place, normal, count = compare_normals(ours, theirs)
             places, worst, compared = max(places, place / size), max(worst, normal), compared + count
-        good = places <= 1e-6 and worst <= 1e-5
-        verdict = "agree" if good else "DIFFER, more than 1e-06 or 1e-05"
+        good = places <= 1e-12 and worst <= 1e-12
+        verdict = "agree" if good else "DIFFER, more than 1e-12"
         print(f"opensubdiv {scheme} limit: positions {places:.3g} of the size, {compared} normals {worst:.3g}: {verdict}")
         agree &= good
     return agree

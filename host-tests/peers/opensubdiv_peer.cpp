@@ -1,4 +1,4 @@
-// Refines an .off mesh with OpenSubdiv in single precision: SCHEME LEVELS IN OUT [FEATURES [limit]], where
+// Refines an .off mesh with OpenSubdiv in double precision: SCHEME LEVELS IN OUT [FEATURES [limit]], where
 // FEATURES (or -) has a line "crease A B" or "corner A" each, vertices counted from 0. With "limit" the vertices
 // go to the limit and each is followed by the limit's normal: zeros where creases meet it or OpenSubdiv's masks
 // belong to other rules beside a crease (rims with other than the regular number of faces).
@@ -13,9 +13,9 @@
 using namespace OpenSubdiv;
 
 struct Vertex {
-  float at[3] = {0, 0, 0};
+  double at[3] = {0, 0, 0};
   void Clear(void * = nullptr) { at[0] = at[1] = at[2] = 0; }
-  void AddWithWeight(Vertex const &other, float weight) {
+  void AddWithWeight(Vertex const &other, double weight) {
     for (int i = 0; i < 3; ++i) at[i] += weight * other.at[i];
   }
 };
@@ -81,7 +81,7 @@ int main(int count, char **words) {
   Far::TopologyRefiner::UniformOptions uniform(levels);
   uniform.fullTopologyInLastLevel = to_limit;
   refiner->RefineUniform(uniform);
-  Far::PrimvarRefiner primvar(*refiner);
+  Far::PrimvarRefinerReal<double> primvar(*refiner);
   for (int level = 1; level <= levels; ++level) {
     std::vector<Vertex> next(refiner->GetLevel(level).GetNumVertices());
     auto *to = next.data();
@@ -89,7 +89,7 @@ int main(int count, char **words) {
     points.swap(next);
   }
   std::ofstream out(words[4]);
-  out.precision(9);
+  out.precision(17);
   if (to_limit) {
     std::vector<Vertex> at(points.size()), one(points.size()), other(points.size());
     auto *limits = at.data(), *ones = one.data(), *others = other.data();
@@ -109,7 +109,7 @@ int main(int count, char **words) {
       const bool corner = last.GetVertexSharpness(v) > 0;
       const bool usable = last.IsVertexBoundary(v) ? last.GetVertexFaces(v).size() == regular : true;
       const double keep = sharp == 0 && !corner && usable && length > 0 ? 1 / length : 0;
-      for (float x : at[v].at) out << x << " ";
+      for (double x : at[v].at) out << x << " ";
       for (double x : n) out << x * keep << " ";
       out << "\n";
     }
