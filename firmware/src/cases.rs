@@ -59,12 +59,14 @@
 //! | [`SECTION_SPRINGS`] | see [`springs`] |
 //! | [`SECTION_LABELS`] | level, the label of each tetrahedron at that level; then the same of octahedra |
 //! | [`SECTION_LIMIT_NORMALS`] | level, how many are zero, x y z of the limit normal of each corner of each face (Doo-Sabin: of each face) at that level |
+//! | [`SECTION_HEALTH`] | see [`health`] |
 //! | [`SECTION_INVERSE`] | see [`inverse`] |
 //! | [`SECTION_PROJECT`] | see [`project`] |
 
 pub mod apply;
 pub mod box_spline;
 pub mod data;
+pub mod health;
 pub mod inverse;
 pub mod mixed;
 pub mod project;
@@ -150,6 +152,8 @@ pub const SHAKES: u32 = 43;
 pub const INVERSE: u32 = 32;
 /// Kind of a case: find amplitudes for measured points.
 pub const SENSORS: u32 = 33;
+/// Kind of a case: tell the health of a pose.
+pub const HEALTH: u32 = 34;
 /// Kind of a case: find the nearest pose under limits and volumes.
 pub const PROJECT: u32 = 35;
 
@@ -195,6 +199,8 @@ pub const SECTION_RIG: u32 = 40;
 pub const SECTION_SPRINGS: u32 = 42;
 /// Tag of a section with the amplitudes and the report of a tick.
 pub const SECTION_INVERSE: u32 = 32;
+/// Tag of a section with the health of a pose.
+pub const SECTION_HEALTH: u32 = 34;
 /// Tag of a section with a projected pose and its report.
 pub const SECTION_PROJECT: u32 = 35;
 
@@ -227,6 +233,7 @@ pub fn run<S: Sink>(kind: u32, words: &[u32], memory: &mut Memory, results: &mut
         SHAKES => springs::run_shakes(words, memory.space(), results),
         INVERSE => inverse::run(words, results),
         SENSORS => inverse::run_sensors(words, results),
+        HEALTH => health::run(words, results),
         PROJECT => project::run(words, memory.space(), results),
         _ => Err(Status::Malformed),
     };

@@ -27,6 +27,7 @@
 //!   states, pushes and obstacles, [`shaken_block`] what is shaken for hours.
 //! - [`reference_control`] is the goals' solver written again, in integers of 128 bits;
 //!   [`random_inverse`] draws solvers, goals and volumes to hold.
+//! - [`reference_health`] is the health of poses written again; [`random_health`] draws its cases.
 //! - [`reference_project`] is the projection of poses written again; [`random_project`] draws its problems, and
 //!   [`sections`] lays forms and limits out as in a bundle.
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
@@ -48,6 +49,7 @@ pub mod performance;
 pub mod qemu;
 pub mod random_bundle;
 pub mod random_data;
+pub mod random_health;
 pub mod random_inverse;
 pub mod random_mesh;
 pub mod random_mixed;
@@ -62,6 +64,7 @@ pub mod rational;
 pub mod reference;
 pub mod reference_box_spline;
 pub mod reference_control;
+pub mod reference_health;
 pub mod reference_mixed;
 pub mod reference_project;
 pub mod reference_rig;

@@ -138,7 +138,7 @@ fn no_conflict_markers() -> Result<(), Failure> {
 }
 
 /// The host's tests against the reference, which take more random cases in the long proofs.
-const HOST_PROOFS: [(&str, &str); 15] = [
+const HOST_PROOFS: [(&str, &str); 16] = [
     ("host: tetrahedra and octahedra", "equality"),
     ("host: box splines", "box_spline_equality"),
     ("host: mixed solids", "mixed_equality"),
@@ -146,6 +146,7 @@ const HOST_PROOFS: [(&str, &str); 15] = [
     ("host: boundaries as surfaces", "tri_quad_boundary"),
     ("host: enclosed volume", "enclosed"),
     ("host: projected poses", "project"),
+    ("host: health of poses", "health"),
     ("host: tables", "table"),
     ("host: tables in every format", "tables_exact"),
     ("host: scalars", "scalars"),

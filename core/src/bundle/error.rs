@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::control::health::HealthError;
 use crate::control::inverse::InverseError;
 use crate::control::project::ProjectError;
 use crate::control::rig::RigError;
@@ -78,6 +79,8 @@ pub enum BundleError {
     Rig(RigError),
     /// Springs are not sound.
     Springs(SpringsError),
+    /// The cage's cells are not sound.
+    Cells(HealthError),
     /// Limits of poses are not sound.
     Limits(ProjectError),
     /// A solver for goals is not sound.
@@ -141,6 +144,7 @@ impl fmt::Display for BundleError {
             Self::Start { row } => write!(f, "the start value of row {row} is too large"),
             Self::Volume(error) => write!(f, "the bundle's volume form is not sound: {error}"),
             Self::Rig(error) => write!(f, "the bundle's rig is not sound: {error}"),
+            Self::Cells(error) => write!(f, "the bundle's cells are not sound: {error}"),
             Self::Limits(error) => write!(f, "the bundle's limits are not sound: {error}"),
             Self::Springs(error) => write!(f, "the bundle's springs are not sound: {error}"),
             Self::Inverse(error) => write!(f, "the bundle's solver for goals is not sound: {error}"),

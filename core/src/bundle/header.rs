@@ -113,6 +113,9 @@ pub const SECTION_VOLUME_MODES: u32 = 9;
 /// [`Section::kind`]: the faces round every row's point, for normals.
 pub const SECTION_NORMALS: u32 = 10;
 
+/// [`Section::kind`]: the cage's cells.
+pub const SECTION_CELLS: u32 = 16;
+
 /// [`Section::kind`]: limits of poses.
 pub const SECTION_LIMITS: u32 = 12;
 

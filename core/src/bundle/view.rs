@@ -7,12 +7,14 @@ use zerocopy::FromBytes;
 use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
-    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_CENTROID_MODES,
-    SECTION_INVERSE, SECTION_LIMITS, SECTION_MODEL_POINTS, SECTION_NORMALS, SECTION_REST_CAGE,
-    SECTION_RIG, SECTION_SPRINGS, SECTION_VOLUME, SECTION_VOLUME_MODES, Section, VERSION,
+    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_CELLS,
+    SECTION_CENTROID_MODES, SECTION_INVERSE, SECTION_LIMITS, SECTION_MODEL_POINTS, SECTION_NORMALS,
+    SECTION_REST_CAGE, SECTION_RIG, SECTION_SPRINGS, SECTION_VOLUME, SECTION_VOLUME_MODES, Section,
+    VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
+use crate::control::health::Health;
 use crate::control::inverse::Inverse;
 use crate::control::project::Limits;
 use crate::control::rig::Rig;
@@ -216,6 +218,23 @@ impl<'a> Bundle<'a> {
         VolumeModes::from_section(bytes)
             .map(Some)
             .map_err(BundleError::Volume)
+    }
+
+    /// What tells how far a pose is from folding over the cage's cells; `None` if the cells were not baked. They are proved
+    /// sound here, not when the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format,
+    /// [`BundleError::Cells`] if the cells are not sound.
+    pub fn health<C: Coordinate>(&self) -> Result<Option<Health<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_CELLS, 0)? else {
+            return Ok(None);
+        };
+        Health::from_section(bytes, self.rest_cage)
+            .map(Some)
+            .map_err(BundleError::Cells)
     }
 
     /// The limits that a projection of poses keeps; `None` if none were baked. They are proved sound here, not when

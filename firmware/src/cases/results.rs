@@ -4,6 +4,7 @@ use core::fmt;
 
 use crc::Digest;
 use octruss::bundle::BundleError;
+use octruss::control::health::HealthError;
 use octruss::control::inverse::InverseError;
 use octruss::control::project::ProjectError;
 use octruss::control::rig::RigError;
@@ -58,6 +59,8 @@ pub enum Status {
     Springs(SpringsError),
     /// 32: the goals' solver is unsound or cannot be run; the detail is the CRC-32 of the error's message.
     Inverse(InverseError),
+    /// 34: the cells are unsound or do not fit the pose; the detail is the CRC-32 of the error's message.
+    Health(HealthError),
     /// 35: the limits are unsound or a pose cannot be projected; the detail is the CRC-32 of the error's message.
     Project(ProjectError),
 }
@@ -84,6 +87,7 @@ impl Status {
             Status::Rig(error) => [20, checksum(&error), 0, 0],
             Status::Springs(error) => [21, checksum(&error), 0, 0],
             Status::Inverse(error) => [32, checksum(&error), 0, 0],
+            Status::Health(error) => [34, checksum(&error), 0, 0],
             Status::Project(error) => [35, checksum(&error), 0, 0],
         }
     }

@@ -7,6 +7,7 @@
 mod apply;
 mod box_spline;
 mod data;
+mod health;
 mod inverse;
 mod mixed;
 mod project;
@@ -92,6 +93,8 @@ pub enum Subject {
     Inverse,
     /// Amplitudes for measured points, without a volume
     Sensors,
+    /// Cells that poses fold over
+    Health,
     /// The nearest poses under pins, boxes, rates and volumes
     Project,
 }
@@ -129,6 +132,7 @@ impl Subject {
             Subject::Shakes => springs::shakes(seed),
             Subject::Inverse => inverse::case(seed, true),
             Subject::Sensors => inverse::case(seed, false),
+            Subject::Health => health::case(seed),
             Subject::Project => project::case(seed),
         }
     }
