@@ -5,6 +5,7 @@ mod common;
 
 use common::{Folder, model, octruss};
 use fixed::types::I22F10;
+use octruss::control::health::RATIO_ONE;
 use octruss::control::project::{GaveUp, ProjectScratch, RegionGoal, ScratchLengths};
 use octruss_bake::bundle::BundleBytes;
 use predicates::str::contains;
@@ -27,6 +28,7 @@ fn baked(folder: &Folder) -> PathBuf {
             "--fraction-bits",
             "10",
             "--volume",
+            "--health",
         ])
         .arg(model("finger.msh"))
         .arg("--model")
@@ -52,6 +54,7 @@ fn a_baked_bundle_holds_a_projection() {
     let bundle = bytes.open().unwrap();
     assert!(bundle.rig::<I22F10>().unwrap().is_some());
     assert!(bundle.springs::<I22F10>().unwrap().is_some());
+    let health = bundle.health::<I22F10>().unwrap().unwrap();
     let limits = bundle.limits::<I22F10>().unwrap().unwrap();
     let form = bundle.volume_form::<I22F10>(0).unwrap().unwrap();
 
@@ -92,6 +95,10 @@ fn a_baked_bundle_holds_a_projection() {
     };
     let report = limits.project(&goal, &regions, scratch, &mut pose).unwrap();
 
+    // At rest all ratios are one; two millimetres fold none of the finger's cells.
+    let at_rest = health.of(&rest).unwrap();
+    assert_eq!((at_rest.folded, at_rest.least_ratio), (0, RATIO_ONE));
+    assert_eq!(health.of(&pose).unwrap().folded, 0);
     assert!(report.gave_up.contains(GaveUp::GOAL_CUT));
     assert!(
         !report.gave_up.contains(GaveUp::VOLUME_MISSED),

@@ -128,6 +128,9 @@ pub struct Arguments {
     /// Also bake limits of poses, which a projection keeps: a file of pins, boxes, speeds and mobilities
     #[arg(long, value_name = "FILE")]
     pub limits: Option<PathBuf>,
+    /// Also bake the cage's cells, from which a device tells whether a pose folds over them
+    #[arg(long)]
+    pub health: bool,
     /// Also bake the model's faces, from which a device forms the normals of the deformed points
     #[arg(long)]
     pub normals: bool,
@@ -189,9 +192,12 @@ fn bake_solid(scheme: Scheme, arguments: &Arguments) -> Result<()> {
         })?,
         faces: arguments.normals.then(|| model.faces.clone()),
         solvers: Solvers::default(),
-        dynamics: Dynamics::read(arguments.dynamics(), cage.points.len(), || {
-            Ok(Pairs::of_cells(&cage.cells))
-        })?,
+        dynamics: Dynamics {
+            cells: arguments.health.then(|| cage.cells.clone()),
+            ..Dynamics::read(arguments.dynamics(), cage.points.len(), || {
+                Ok(Pairs::of_cells(&cage.cells))
+            })?
+        },
         request: Request {
             format: arguments.format,
             max_error: arguments.max_error,

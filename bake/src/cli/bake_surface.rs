@@ -22,6 +22,11 @@ pub fn run(scheme: SurfaceScheme, arguments: &Arguments) -> Result<()> {
     if arguments.actuators.is_some() {
         return Err(Error::new("--actuators is for cages of cells"));
     }
+    if arguments.health {
+        return Err(Error::new(
+            "--health is for cages of cells; a control mesh has none",
+        ));
+    }
     if let Some(skin) = &arguments.skin {
         write::require_surface_extension(skin)?;
     }

@@ -1,8 +1,10 @@
-//! What moves the control points, from text files to sections of a bundle: rigs, springs and limits.
+//! What moves the control points, from text files to sections of a bundle: rigs, springs and limits, and the cells that poses
+//! are not to fold over.
 //!
 //! `docs/files.md` says what stands in the files. [`rig`], [`springs`] and [`limits`] read them; core proves their
 //! sections before they are written.
 
+pub mod health;
 pub mod limits;
 pub mod rig;
 pub mod springs;
@@ -30,6 +32,8 @@ pub struct Dynamics {
     pub springs: Option<(PathBuf, SpringsFile)>,
     /// The limits of poses.
     pub limits: Option<(PathBuf, LimitsFile)>,
+    /// The cage's cells, from which a device tells the health of poses.
+    pub cells: Option<Cells>,
 }
 
 /// The files that are given.
@@ -86,6 +90,9 @@ impl Dynamics {
         if let Some((file, springs)) = &self.springs {
             let section = springs.section(format, rest);
             sections.push(section.map_err(|error| error.in_file(file))?);
+        }
+        if let Some(cells) = &self.cells {
+            sections.push(health::section(cells, rest)?);
         }
         if let Some((file, limits)) = &self.limits {
             let section = limits.section(format, rest);
