@@ -176,18 +176,52 @@ fn split(coefficients: &[i32], length: usize) -> (&[i32], &[i32]) {
     coefficients.split_at_checked(length).unwrap_or_default()
 }
 
+/// Planes of up to this many amplitudes have straight code for each of their lines.
+///
+/// Lines are short: loops, and calls too, would cost more than what is in them.
+const UNROLLED: usize = 16;
+
+/// Calls a generic function for lines of 16 down to one amplitude; it passes over those that are longer than its plane.
+macro_rules! each_length {
+    ($line:ident($($argument:expr),*)) => {
+        each_length!(@ $line ($($argument),*) 16 15 14 13 12 11 10 9 8 7 6 5 4 3 2 1)
+    };
+    (@ $line:ident $arguments:tt $($length:literal)*) => {
+        $(each_length!(# $line::<$length> $arguments);)*
+    };
+    (# $line:ident::<$length:literal> ($($argument:expr),*)) => {
+        $line::<$length>($($argument),*)
+    };
+}
+
 /// The sum over `b` from the first of these amplitudes on, of amplitude times the rounded sum over `c`.
 #[inline(never)]
 fn plane(coefficients: &mut &[i32], amplitudes: &[i32]) -> i64 {
     let (mut left, mut rest) = (*coefficients, amplitudes);
     let mut plane = 0_i64;
-    while let Some((&amplitude, others)) = rest.split_first() {
+    while let Some((&amplitude, others)) = rest.split_first()
+        && rest.len() > UNROLLED
+    {
         let (row, more) = split(left, rest.len());
         plane = plane.wrapping_add(product(narrow(dot(row, rest)), amplitude));
         (left, rest) = (more, others);
     }
+    each_length!(line(&mut left, rest, &mut plane));
     *coefficients = left;
     plane
+}
+
+/// The line of the last `N` amplitudes, if there are so many.
+#[inline(always)]
+fn line<const N: usize>(left: &mut &[i32], amplitudes: &[i32], plane: &mut i64) {
+    let (Some(own @ [amplitude, ..]), Some((row, more))) = (
+        amplitudes.last_chunk::<N>().map(<[i32; N]>::as_slice),
+        left.split_first_chunk::<N>(),
+    ) else {
+        return;
+    };
+    *plane = plane.wrapping_add(product(narrow(dot(row, own)), *amplitude));
+    *left = more;
 }
 
 /// The same, while every derivative gets what it has from the sums over `b` and `c`.
@@ -200,28 +234,76 @@ fn plane_and_gradient(
 ) -> i64 {
     let (mut left, mut rest, mut derivatives) = (*coefficients, amplitudes, gradient);
     let mut plane = 0_i64;
-    while let Some((&amplitude, others)) = rest.split_first() {
+    // A weight of two amplitudes of -2 has 33 bits, which straight code does without.
+    let is_wide = first == i32::MIN;
+    while rest.len() > if is_wide { 0 } else { UNROLLED } {
         let (row, more) = split(left, rest.len());
-        let weight = round_shift(product(first, amplitude), SHIFT);
-        let sum = match i32::try_from(weight) {
-            Ok(weight) => dot_and_spread(row, rest, derivatives, weight),
-            // Both amplitudes are -2: the product is 2^31.
-            Err(_) => {
-                spread_wide(row, derivatives, weight);
-                dot(row, rest)
-            }
-        };
-        let line = narrow(sum);
-        plane = plane.wrapping_add(product(line, amplitude));
-        let Some((own, later)) = derivatives.split_first_mut() else {
+        plane = plane.wrapping_add(line_and_spread(row, rest, derivatives, first));
+        let (Some((_, others)), Some((_, later))) = (
+            rest.split_first(),
+            core::mem::take(&mut derivatives).split_first_mut(),
+        ) else {
             break;
         };
-        *own = own.wrapping_add(product(line, first));
-        // The first derivative is borrowed no longer.
         (left, rest, derivatives) = (more, others, later);
     }
+    each_length!(fixed_line_and_spread(
+        &mut left,
+        rest,
+        derivatives,
+        first,
+        &mut plane
+    ));
     *coefficients = left;
     plane
+}
+
+/// The line of the last `N` amplitudes, if there are so many.
+#[inline(always)]
+fn fixed_line_and_spread<const N: usize>(
+    left: &mut &[i32],
+    amplitudes: &[i32],
+    gradient: &mut [i64],
+    first: i32,
+    plane: &mut i64,
+) {
+    let (Some(own @ [amplitude, ..]), Some(derivatives), Some((row, more))) = (
+        amplitudes.last_chunk::<N>().map(<[i32; N]>::as_slice),
+        gradient.last_chunk_mut::<N>(),
+        left.split_first_chunk::<N>(),
+    ) else {
+        return;
+    };
+    let weight = low_word(round_shift(product(first, *amplitude), SHIFT));
+    let line = narrow(dot_and_spread(row, own, derivatives, weight));
+    *plane = plane.wrapping_add(product(line, *amplitude));
+    if let Some(own) = derivatives.first_mut() {
+        *own = own.wrapping_add(product(line, first));
+    }
+    *left = more;
+}
+
+/// A line times its first amplitude. The derivatives by its amplitudes get their parts: the first `line * first` beside
+/// `coefficient * weight`, which all get, where the weight is the rounded product of both amplitudes.
+#[inline(always)]
+fn line_and_spread(row: &[i32], amplitudes: &[i32], gradient: &mut [i64], first: i32) -> i64 {
+    let Some(&amplitude) = amplitudes.first() else {
+        return 0;
+    };
+    let weight = round_shift(product(first, amplitude), SHIFT);
+    let sum = match i32::try_from(weight) {
+        Ok(weight) => dot_and_spread(row, amplitudes, gradient, weight),
+        // Both amplitudes are -2: the product is 2^31.
+        Err(_) => {
+            spread_wide(row, gradient, weight);
+            dot(row, amplitudes)
+        }
+    };
+    let line = narrow(sum);
+    if let Some(own) = gradient.first_mut() {
+        *own = own.wrapping_add(product(line, first));
+    }
+    product(line, amplitude)
 }
 
 /// The sum over `c` of coefficient times amplitude.
@@ -261,5 +343,12 @@ pub(super) fn product(a: i32, b: i32) -> i64 {
 /// A sum rounded by `2^31`: it fits 32 bits because the coefficients' magnitudes add up to
 /// less than `2^30`.
 pub(super) fn narrow(sum: i64) -> i32 {
-    i32::try_from(round_shift(sum, SHIFT)).unwrap_or_default()
+    low_word(round_shift(sum, SHIFT))
+}
+
+/// A number that fits 32 bits.
+#[inline(always)]
+fn low_word(value: i64) -> i32 {
+    let [a, b, c, d, ..] = value.to_le_bytes();
+    i32::from_le_bytes([a, b, c, d])
 }

@@ -1,7 +1,7 @@
 //! Descends coordinate by coordinate within a box, and steers the linearised volume by one multiplier.
 
 use super::config::{FORCE_LIMIT, Inverse, MOST_ACTUATORS};
-use crate::coord::{round_div, round_shift};
+use crate::coord::{floor_shift, round_div, round_shift};
 
 /// Fraction bits of `y` beside those of the amplitudes.
 pub(super) const ANSWER_BITS: u32 = 20;
@@ -65,13 +65,8 @@ impl Problem<'_, '_> {
             else {
                 break;
             };
-            let (by_amplitudes, by_answer) = match self.need {
-                None => (product(row, &point.amplitudes), 0),
-                Some(_) => products(row, &point.amplitudes, &point.answer),
-            };
-            let (Some(amplitude), Some(answer)) =
-                (point.amplitudes.get_mut(place), point.answer.get_mut(place))
-            else {
+            let by_amplitudes = product(row, &point.amplitudes);
+            let Some(amplitude) = point.amplitudes.get_mut(place) else {
                 break;
             };
             let force = force
@@ -82,20 +77,25 @@ impl Problem<'_, '_> {
                 reciprocal,
             };
             let wanted = i64::from(*amplitude).wrapping_add(curve.divide(force));
-            let is_free = i64::from(low) < wanted && wanted < i64::from(high);
             let new = clamp(wanted, low, high);
+            // An amplitude on its bound is held by it, however little the force presses.
+            let is_free = low < new && new < high;
             swept.greatest = swept.greatest.max(new.abs_diff(*amplitude));
             *amplitude = new;
             if !is_free {
                 swept.held |= bit(place);
             }
-            *answer = if is_free && self.need.is_some() {
-                let force = answered(slope).wrapping_sub(by_answer);
-                let wanted = i64::from(*answer).wrapping_add(curve.divide(force));
+            let answer = if is_free && self.need.is_some() {
+                let force = answered(slope).wrapping_sub(product(row, &point.answer));
+                let before = point.answer.get(place).copied().unwrap_or_default();
+                let wanted = i64::from(before).wrapping_add(curve.divide(force));
                 clamp(wanted, -i32::MAX, i32::MAX)
             } else {
                 0
             };
+            if let Some(own) = point.answer.get_mut(place) {
+                *own = answer;
+            }
         }
         if let Some(need) = &self.need {
             let moved = self.steer(need, point);
@@ -192,13 +192,35 @@ impl Curve {
     #[inline(always)]
     fn divide(&self, force: i64) -> i64 {
         let exponent = 31_u32.wrapping_sub(self.diagonal.leading_zeros());
-        let limit = 1_i64.wrapping_shl(exponent.wrapping_add(32));
-        let short = round_shift(
-            force.clamp(limit.wrapping_neg(), limit),
-            exponent.wrapping_add(2),
-        );
-        round_shift(short.wrapping_mul(i64::from(self.reciprocal)), 28)
+        let edge = 1_i32.wrapping_shl(exponent);
+        let (high, _) = words(force);
+        let short = if high >= edge {
+            1 << 30
+        } else if high < edge.wrapping_neg() {
+            -1 << 30
+        } else {
+            // In steps whose words are easily shifted: by two, then by the exponent, which is 8 to 30. What is left has
+            // 31 bits.
+            let half = i64::from(1_u32.wrapping_shl(exponent.wrapping_add(1)));
+            let (high, low) = words(floor_shift(force.wrapping_add(half), 2));
+            let upper = high.wrapping_shl(32_u32.wrapping_sub(exponent));
+            upper | low.wrapping_shr(exponent).cast_signed()
+        };
+        round_shift(
+            i64::from(short).wrapping_mul(i64::from(self.reciprocal)),
+            28,
+        )
     }
+}
+
+/// The high and the low word.
+#[inline(always)]
+fn words(value: i64) -> (i32, u32) {
+    let [a, b, c, d, e, f, g, h] = value.to_le_bytes();
+    (
+        i32::from_le_bytes([e, f, g, h]),
+        u32::from_le_bytes([a, b, c, d]),
+    )
 }
 
 /// The slope as a force on `y`.
@@ -210,23 +232,23 @@ fn answered(slope: i32) -> i64 {
 /// The sum of products of a row with amplitudes.
 #[inline(never)]
 pub(super) fn product(row: &[i32], amplitudes: &[i32]) -> i64 {
+    // Of the most actuators, without a loop.
+    if let (Ok(row), Ok(amplitudes)) = (
+        <&Amplitudes>::try_from(row),
+        <&Amplitudes>::try_from(amplitudes),
+    ) {
+        return sum_of_products(row, amplitudes);
+    }
+    sum_of_products(row, amplitudes)
+}
+
+#[inline(always)]
+fn sum_of_products(row: &[i32], amplitudes: &[i32]) -> i64 {
     let mut sum = 0_i64;
     for (&element, &amplitude) in row.iter().zip(amplitudes) {
         sum = sum.wrapping_add(i64::from(element).wrapping_mul(i64::from(amplitude)));
     }
     sum
-}
-
-/// The sums of products of a row with amplitudes and with `y`.
-#[inline(never)]
-fn products(row: &[i32], amplitudes: &[i32], answer: &[i32]) -> (i64, i64) {
-    let (mut first, mut second) = (0_i64, 0_i64);
-    for ((&element, &amplitude), &answer) in row.iter().zip(amplitudes).zip(answer) {
-        let element = i64::from(element);
-        first = first.wrapping_add(element.wrapping_mul(i64::from(amplitude)));
-        second = second.wrapping_add(element.wrapping_mul(i64::from(answer)));
-    }
-    (first, second)
 }
 
 /// A value cut to a range, which then fits 32 bits.
