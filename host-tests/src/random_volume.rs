@@ -53,11 +53,11 @@ pub struct ModesCase {
 }
 
 impl ModesCase {
-    /// The case of a seed, with up to 16 modes; amplitudes are anywhere, at the ends of their range,
+    /// The case of a seed, with up to 20 modes, more than there is straight code for; amplitudes are anywhere, at the ends of their range,
     /// or at most one.
     pub fn new(seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let modes = rng.random_range(0..=16_usize);
+        let modes = rng.random_range(0..=20_usize);
         let count = (modes + 1) * (modes + 2) * (modes + 3) / 6;
         let mut left = (1_i64 << 30) - 1;
         let mut coefficients = vec![0; count];
