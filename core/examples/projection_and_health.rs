@@ -41,7 +41,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut of_points = [(); 4].map(|()| vec![[0; 3]; points]);
     let [lower, upper, current, candidate] = &mut of_points;
     let (mut forces, mut gradients) = (vec![[0; 3]; points], vec![[0; 3]; lengths.gradients]);
-    let mut form_gradient = vec![[0; 3]; lengths.form];
+    let (mut form_workspace, mut form_gradient) =
+        (vec![[0; 3]; lengths.form], vec![[0; 3]; lengths.form]);
 
     // Every control point is asked to go an eighth of a unit along x in every call.
     let unit = 1_i32.wrapping_shl(bundle.header().fraction_bits.get());
@@ -58,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             candidate,
             forces: &mut forces,
             gradients: &mut gradients,
-            form_workspace: &mut *workspace,
+            form_workspace: &mut form_workspace,
             form_gradient: &mut form_gradient,
         };
         let report = limits.project(&goal, &regions, scratch, &mut pose)?;

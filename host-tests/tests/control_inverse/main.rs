@@ -121,7 +121,7 @@ fn without_a_volume_it_reaches_the_objective_of_clarabel() {
 
 #[test]
 fn with_a_volume_it_reaches_the_objective_of_sequential_programming() {
-    let count = case_count(50).min(1000);
+    let count = case_count(12).min(1000);
     let (mut worst_gap, mut worst_volume, mut worst_residual) = (0.0_f64, 0.0_f64, 0.0_f64);
     let (mut feasible, mut better) = (0, 0);
     for seed in 0..count {
