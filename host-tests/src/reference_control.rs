@@ -50,7 +50,8 @@ pub struct Memory {
     answer: Vec<i128>,
     multiplier: i128,
     shift: i32,
-    reach: i128,
+    /// In 65536ths.
+    pace: i128,
 }
 
 /// What a tick says.
@@ -76,12 +77,14 @@ impl Memory {
             .iter_mut()
             .zip(measured)
             .for_each(|(own, new)| *own = new);
-        self.reach = MOST;
+        self.pace = WHOLE;
     }
 }
 
 const MOST: i128 = (1 << 31) - 1;
 const FORCE: i128 = 1 << 61;
+const WHOLE: i128 = 65536;
+const LEAST: i128 = 16;
 
 /// `floor(value 2^-places + 1/2)`; a negative number of places widens.
 fn round(value: i128, places: i32) -> i128 {
@@ -153,7 +156,7 @@ impl InverseTable {
             answer: vec![0; self.actuators],
             multiplier: 0,
             shift: 0,
-            reach: MOST,
+            pace: WHOLE,
         }
     }
 
@@ -206,7 +209,7 @@ impl InverseTable {
         for (place, &before) in memory.amplitudes.iter().enumerate() {
             let number = |list: &[i32]| i128::from(list[place]);
             let (lower, upper) = (number(&self.lower), number(&self.upper));
-            let step = number(&self.rates).min(memory.reach);
+            let step = number(&self.rates);
             let (down, up) = (before - step, before + step);
             if up < lower {
                 said.gave_up |= 4;
@@ -350,7 +353,18 @@ impl Tick<'_> {
         }
         self.descend(memory, said);
 
-        let swept = memory.amplitudes.clone();
+        let inside = self.start.iter().zip(&self.limits);
+        let may_stay = inside
+            .clone()
+            .all(|(own, [low, high])| low <= own && own <= high);
+        if !may_stay {
+            memory.pace = WHOLE;
+        }
+        let pairs = self.start.iter().zip(&memory.amplitudes);
+        let longest = pairs.clone().map(|(a, b)| (b - a).abs()).max();
+        let swept: Vec<i128> = pairs
+            .map(|(before, own)| before + round((own - before) * memory.pace, 16))
+            .collect();
         let mut best = (swept.clone(), volume_of(&swept).0);
         said.evaluations = 1;
         let close = tolerance >> 8;
@@ -377,25 +391,43 @@ impl Tick<'_> {
                 step = (step + change).clamp(-MOST, MOST);
             }
         }
-        let inside = self.start.iter().zip(&self.limits);
-        let may_stay = inside
-            .clone()
-            .all(|(own, [low, high])| low <= own && own <= high);
         let allowed = error_of(volume_before).abs().max(tolerance);
         if may_stay && error_of(best.1).abs() > allowed {
             said.gave_up |= 1 << 7;
-            let moves = best.0.iter().zip(&self.start);
-            let greatest = moves.map(|(a, b)| (a - b).abs()).max().unwrap_or(0);
-            memory.reach = (greatest / 4).clamp(1 << 10, MOST);
+            memory.pace = (memory.pace / 4).max(LEAST);
             best = (self.start.clone(), volume_before);
-        } else {
-            memory.reach = (2 * memory.reach).min(MOST);
+        } else if longest.unwrap_or(0) >= 1 << 17 {
+            let grown = force_of(best.1 - volume_before, 31 - shift);
+            let asked = self.asked(&best.0, grown, memory.multiplier);
+            let least = (memory.pace / 2).max(LEAST);
+            memory.pace = asked.clamp(least, (2 * memory.pace).min(WHOLE));
         }
         if error_of(best.1).abs() > tolerance {
             said.gave_up |= 1 << 3;
         }
         memory.amplitudes = best.0;
         said.volume = best.1.to_i64().expect("volumes fit");
+    }
+}
+
+impl Tick<'_> {
+    /// The part of a step that would have reached the least of a parabola with the objective's curvature and the
+    /// volume's, in 65536ths.
+    fn asked(&self, place: &[i128], grown: i128, multiplier: i128) -> i128 {
+        let step: Vec<i128> = place.iter().zip(&self.start).map(|(a, b)| a - b).collect();
+        if step.iter().all(|own| own.abs() < 1 << 17) {
+            return WHOLE;
+        }
+        let forces = (0..step.len()).map(|own| dot(self.table.row(own), &step));
+        let objective: i128 = forces.zip(&step).map(|(a, b)| a * b).sum();
+        let told: i128 = step.iter().zip(&self.slope).map(|(a, b)| a * b).sum();
+        let lagrangian = objective - 2 * multiplier * (grown - told);
+        if objective <= 0 || lagrangian <= objective {
+            return WHOLE;
+        }
+        // 46 digits of both.
+        let lost = (digits(lagrangian) - 46).max(0);
+        quotient((objective >> lost) << 16, lagrangian >> lost)
     }
 }
 

@@ -121,9 +121,10 @@ fn without_a_volume_it_reaches_the_objective_of_clarabel() {
 
 #[test]
 fn with_a_volume_it_reaches_the_objective_of_sequential_programming() {
-    let count = case_count(12).min(1000);
+    // Among the first thirty are some whose volume curves more than their objective.
+    let count = case_count(60).min(1000);
     let (mut worst_gap, mut worst_volume, mut worst_residual) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut feasible, mut better) = (0, 0);
+    let (mut feasible, mut better, mut elsewhere) = (0, 0, 0);
     for seed in 0..count {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let likeness = Likeness {
@@ -160,17 +161,23 @@ fn with_a_volume_it_reaches_the_objective_of_sequential_programming() {
             "seed {seed}: {} actuators, gap {gap:.1e}, volume off by {volume:.1e}, residual {residual:.1e}",
             case.table.actuators
         );
-        worst_gap = worst_gap.max(gap);
+        // The problem is not convex: another place that satisfies the optimality conditions is an answer too.
+        if gap > 1e-4 && residual < 1e-6 {
+            elsewhere += 1;
+        } else {
+            worst_gap = worst_gap.max(gap);
+        }
         worst_volume = worst_volume.max(volume);
         worst_residual = worst_residual.max(residual);
         better += u32::from(gap < -1e-6);
     }
     println!(
-        "{feasible} of {count} problems have a feasible point by ten starts; {better} better than the best of them; \
-         worst: gap {worst_gap:.1e}, volume {worst_volume:.1e}, residual {worst_residual:.1e}"
+        "{feasible} of {count} problems have a feasible point by ten starts; {better} better than the best of them, \
+         {elsewhere} at another local minimum; worst: gap {worst_gap:.1e}, volume {worst_volume:.1e}, residual {worst_residual:.1e}"
     );
     assert!(feasible > 0);
+    assert!(elsewhere * 200 <= feasible);
     assert!(worst_volume <= 1e-4);
     assert!(worst_gap <= 1e-4);
-    assert!(worst_residual <= 1e-3);
+    assert!(worst_residual <= 2.5e-4);
 }

@@ -115,7 +115,7 @@ impl Linear {
 }
 
 /// From volumes, in units of `2^-28`, to products of slope (`2^(shift - 29)`) and amplitude (`2^-30`).
-fn error_shift(shift: i32) -> i32 {
+pub(super) fn error_shift(shift: i32) -> i32 {
     31_i32.wrapping_sub(shift)
 }
 

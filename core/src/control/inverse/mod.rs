@@ -16,18 +16,19 @@
 //!
 //! With `H = J'WJ + damping` and `A = J'W`, both baked, a tick
 //!
-//! 1. forms `b = A (goal - rest)` and the box: bounds, cut with the rate and the trusted reach;
+//! 1. forms `b = A (goal - rest)` and the box: bounds, cut with the rate;
 //! 2. takes the volume's value and gradient `g` at the amplitudes before, once;
 //! 3. descends coordinate by coordinate, each to the exact minimum of its parabola cut to the box: at most
 //!    [`SWEEPS`] sweeps, or [`SWEEPS_WITHOUT_VOLUME`]. Beside the amplitudes the same rows of `H` refine `y`, the free amplitudes' answer to the
 //!    volume's multiplier (`H y = g`), so that after every sweep one Newton step sets the multiplier to where
 //!    the linearised volume reaches its target;
-//! 4. evaluates the volume, and goes along `y` by the secant method until it is right: at most [`EVALUATIONS`]
-//!    evaluations;
-//! 5. stays where it was, and trusts a quarter of the reach from then on, if the volume would be further off
-//!    than [`TOLERANCE_BITS`] allow and than it was before.
+//! 4. takes as much of this step as the pace says, evaluates the volume, and goes along `y` by the secant method until
+//!    it is right: at most [`EVALUATIONS`] evaluations;
+//! 5. stays where it was, and takes a quarter of the pace from then on, if the volume would be further off than
+//!    [`TOLERANCE_BITS`] allow and than it was before; otherwise the pace becomes what the volume's curvature along the
+//!    step asks for, so that steps do not swing about the goal where the volume curves more than the objective.
 //!
-//! Amplitudes, `y` and the multiplier are kept from tick to tick ([`InverseState`]), so ticks with the same
+//! Amplitudes, `y`, the multiplier and the pace are kept from tick to tick ([`InverseState`]), so ticks with the same
 //! goals converge to a point that satisfies the optimality conditions of the whole problem.
 //!
 //! # The smallest controller
@@ -71,6 +72,7 @@ mod config;
 mod descent;
 mod error;
 mod hold;
+mod pace;
 mod report;
 mod section;
 mod state;

@@ -1,6 +1,7 @@
 //! What a solver remembers from tick to tick.
 
 use super::config::{Inverse, MOST_ACTUATORS};
+use super::pace::Pace;
 
 /// What a solver remembers from tick to tick, in the caller's memory. One configuration serves many states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,8 +15,8 @@ pub struct InverseState {
     pub(super) multiplier: i64,
     /// Bits by which the volume's gradient was rounded when the multiplier and `y` were found.
     pub(super) gradient_shift: i32,
-    /// How far amplitudes may move in a tick, beside their rates.
-    pub(super) reach: i32,
+    /// How much of a step is taken.
+    pub(super) pace: Pace,
 }
 
 impl InverseState {
@@ -27,7 +28,7 @@ impl InverseState {
             answer: [0; MOST_ACTUATORS],
             multiplier: 0,
             gradient_shift: 0,
-            reach: i32::MAX,
+            pace: Pace::WHOLE,
         };
         let bounds = inverse.parts.lower.iter().zip(inverse.parts.upper);
         for (amplitude, (&lower, &upper)) in state.amplitudes.iter_mut().zip(bounds) {
@@ -48,6 +49,6 @@ impl InverseState {
         for (own, &new) in self.amplitudes.iter_mut().zip(amplitudes) {
             *own = new.max(-i32::MAX);
         }
-        self.reach = i32::MAX;
+        self.pace = Pace::WHOLE;
     }
 }

@@ -4,6 +4,7 @@ use super::config::{FORCE_LIMIT, Inverse, MOST_ACTUATORS, MOST_EFFECTORS};
 use super::descent::{Amplitudes, MULTIPLIER_LIMIT, Point, Problem, Swept, clamp, product, scaled};
 use super::error::InverseError;
 use super::hold::{Band, Held, Linear, correct};
+use super::pace::Pace;
 use super::report::{GaveUp, InverseReport, VolumeGoal};
 use super::state::InverseState;
 use crate::coord::{Coordinate, round_shift};
@@ -20,8 +21,6 @@ pub const TOLERANCE_BITS: u32 = 14;
 
 /// Amplitudes have settled when a sweep changes none by more than this.
 const SETTLED: u32 = 1 << 6;
-/// The trusted reach never becomes smaller than this.
-const LEAST_REACH: i32 = 1 << 10;
 /// Differences of goals are cut to this magnitude.
 const DIFFERENCE_LIMIT: i64 = 1 << 30;
 
@@ -124,7 +123,7 @@ impl Inverse<'_> {
         let bounds = parts.lower.iter().zip(parts.upper).zip(parts.rates);
         let limits = low.iter_mut().zip(&mut high).zip(&state.amplitudes);
         for (((low, high), &before), ((&lower, &upper), &rate)) in limits.zip(bounds) {
-            let step = i64::from(rate.min(state.reach));
+            let step = i64::from(rate);
             let down = i64::from(before).wrapping_sub(step);
             let up = i64::from(before).wrapping_add(step);
             // Where the bounds cannot be reached in this tick both limits are the nearest place that can.
@@ -213,6 +212,14 @@ fn hold(
     }
     let mut point = state.point();
     problem.descend(&mut point, report);
+    let limits = problem.low.iter().zip(&problem.high);
+    let may_stay = start
+        .iter()
+        .zip(limits)
+        .all(|(before, (low, high))| low <= before && before <= high);
+    // From outside the box the way back into it is not shortened.
+    let pace = if may_stay { state.pace } else { Pace::WHOLE };
+    let longest = pace.shorten(&mut point.amplitudes, &start);
     let held = correct(
         problem,
         modes,
@@ -224,11 +231,6 @@ fn hold(
     report.evaluations = held.evaluations;
     let error_before = band.error(linear.volume);
     let allowed = error_before.unsigned_abs().max(band.tolerance());
-    let limits = problem.low.iter().zip(&problem.high);
-    let may_stay = start
-        .iter()
-        .zip(limits)
-        .all(|(before, (low, high))| low <= before && before <= high);
     let is_refused = held.error.unsigned_abs() > allowed && may_stay;
     let before = Held {
         amplitudes: start,
@@ -237,10 +239,10 @@ fn hold(
         ..held
     };
     let kept = if is_refused { before } else { held };
-    state.reach = if is_refused {
-        reach(&start, &held.amplitudes)
+    state.pace = if is_refused {
+        pace.quarter()
     } else {
-        state.reach.saturating_add(state.reach)
+        pace.next(problem, &linear, &start, &held, point.multiplier, longest)
     };
     point.amplitudes = kept.amplitudes;
     state.keep(&point);
@@ -248,14 +250,6 @@ fn hold(
     report.volume = kept.volume;
     report.gave_up.set(GaveUp::STEP_REFUSED, is_refused);
     report.gave_up.set(GaveUp::VOLUME_MISSED, is_missed);
-}
-
-/// A quarter of the greatest step that was refused.
-fn reach(start: &Amplitudes, refused: &Amplitudes) -> i32 {
-    let steps = start.iter().zip(refused);
-    let greatest = steps.map(|(a, b)| a.abs_diff(*b)).max();
-    let quarter = greatest.unwrap_or_default().wrapping_shr(2);
-    i32::try_from(quarter).unwrap_or(i32::MAX).max(LEAST_REACH)
 }
 
 const _: () = assert!(FORCE_LIMIT == 1 << 61, "the bounds above rely on it");
