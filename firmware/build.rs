@@ -10,13 +10,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The images that log through `defmt`. `apply` does not: it holds the apply path alone.
-const LOGGING_IMAGES: [&str; 8] = [
+const LOGGING_IMAGES: [&str; 9] = [
     "bench",
     "conformance",
     "demo",
     "faults",
     "holding",
     "inverse",
+    "projection",
     "skin",
     "volume",
 ];

@@ -263,6 +263,8 @@ pub fn bench() -> Result<(), Failure> {
         "skin",
         "--bin",
         "inverse",
+        "--bin",
+        "projection",
     ];
     Program::cargo()
         .args(build)

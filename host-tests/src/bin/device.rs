@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use clap::{Parser, Subcommand, ValueEnum as _};
 use octruss_host_tests::performance::inverse::{self, Sources};
+use octruss_host_tests::performance::projection;
 use octruss_host_tests::performance::skin;
 use octruss_host_tests::qemu::demo::{self, Example, Summary};
 use octruss_host_tests::qemu::holding;
@@ -223,11 +224,12 @@ fn sources(models: PathBuf) -> Sources {
 
 fn goals(directory: &Path, models: PathBuf) -> Result<bool, demo::Failure> {
     std::fs::create_dir_all(directory)?;
-    let made = inverse::make(directory, &sources(models))?;
-    println!(
-        "{}",
-        inverse::section(&made, &inverse::figures(directory)?)?
-    );
+    let made = inverse::make(directory, &sources(models.clone()))?;
+    let figures = inverse::figures(directory, "inverse")?;
+    println!("{}", inverse::section(&made, &figures)?);
+    let made = projection::make(directory, &sources(models))?;
+    let figures = inverse::figures(directory, "projection")?;
+    println!("{}", projection::section(&made, &figures)?);
     Ok(true)
 }
 

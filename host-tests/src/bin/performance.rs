@@ -15,7 +15,7 @@ use octruss_host_tests::performance::cycles::{
 };
 use octruss_host_tests::performance::input::{Failure, Inputs, make};
 use octruss_host_tests::performance::page::{Line, Measured, page};
-use octruss_host_tests::performance::{inverse, skin, volume};
+use octruss_host_tests::performance::{inverse, projection, skin, volume};
 use octruss_host_tests::qemu::{Machine, Run, image};
 
 /// The shift of the instruction clock at which counts are exact.
@@ -82,8 +82,16 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
         folder: folder.to_owned(),
     };
     let controlled = inverse::make(&arguments.directory, &sources)?;
+    let limited = projection::make(&arguments.directory, &sources)?;
     let run = || -> Result<Figures, Failure> {
-        let images = ["rivals", "refine", "volume", "skin", "inverse"];
+        let images = [
+            "rivals",
+            "refine",
+            "volume",
+            "skin",
+            "inverse",
+            "projection",
+        ];
         let all: Result<Vec<_>, _> = images
             .map(|name| figures(arguments, name))
             .into_iter()
@@ -133,6 +141,7 @@ fn measure(arguments: &Arguments) -> Result<bool, Failure> {
     text += &volume::section(&enclosed, &first)?;
     text += &skin::section(&surface, &first)?;
     text += &inverse::section(&controlled, &first)?;
+    text += &projection::section(&limited, &first)?;
     println!("{text}");
     fs::write(&arguments.output, text)?;
     Ok(is_repeatable)

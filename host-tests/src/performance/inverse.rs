@@ -151,12 +151,12 @@ pub fn make(directory: &Path, sources: &Sources) -> Result<Report, Failure> {
 /// The shift of the instruction clock at which counts are exact.
 const EXACT_SHIFT: u8 = 7;
 
-/// The figures of the image `inverse`.
+/// The figures of an image such as `inverse`.
 ///
 /// # Errors
 /// If it does not run to its end.
-pub fn figures(directory: &Path) -> Result<Vec<(String, u64)>, Failure> {
-    let outcome = Run::new(Machine::Mps2An386, image("inverse"))
+pub fn figures(directory: &Path, name: &str) -> Result<Vec<(String, u64)>, Failure> {
+    let outcome = Run::new(Machine::Mps2An386, image(name))
         .directory(directory)
         .instruction_shift(EXACT_SHIFT)
         .time_limit(Duration::from_secs(300))
