@@ -151,6 +151,75 @@ fn forms_are_printed() {
     .stdout(contains("\"control_points\": 18"));
 }
 
+/// The paper's A-hat(5, 1, 6) of Catmull-Clark, 61595/877879296, is half of the coefficient of quadrilaterals
+/// alone; the faces say which point is which.
+#[test]
+fn forms_of_neighbourhoods_are_printed() {
+    let directory = tempdir().expect("a directory");
+    let forms = |arguments: &str| {
+        let command = &mut octruss(directory.path(), &format!("forms --scheme {arguments}"));
+        command.assert()
+    };
+    let out = forms("tri-quad --around 4,4,4,4").success();
+    let out = String::from_utf8(out.get_output().stdout.clone()).expect("text");
+    let line = out.lines().find_map(|line| line.strip_prefix("0 5 6 "));
+    let got: f64 = line.expect("a line").parse().expect("a number");
+    let want = 2.0 * 61_595.0 / 877_879_296.0;
+    assert!((got / want - 1.0).abs() < 1e-13, "{got} {want}");
+    let out = forms("butterfly-modified --valence 5 --json").success();
+    let out: serde_json::Value =
+        serde_json::from_slice(&out.get_output().stdout).expect("one JSON object");
+    assert_eq!(out["faces"][0], serde_json::json!([0, 1, 2]));
+    assert_eq!(out["valence"], 5);
+    for (arguments, complaint) in [
+        ("sqrt3 --valence 5 --exact", "leave --exact out"),
+        ("sqrt3 --around 3,3,4", "takes no face of 4 corners"),
+        ("tri-quad --around 3,3,5", "takes no face of 5 corners"),
+        ("butterfly --valence 2", "at least 3"),
+        ("loop --around 3,3,3", "give --valence"),
+        ("tri-quad", "--valence"),
+    ] {
+        forms(arguments).failure().stderr(contains(complaint));
+    }
+}
+
+/// A surface with exact forms in a bundle: the report's volume is the command's, with no estimate of an error.
+#[test]
+fn exact_volumes_of_neighbourhoods_are_baked() {
+    let directory = tempdir().expect("a directory");
+    fs::write(directory.path().join("octahedron.obj"), OCTAHEDRON).expect("a file");
+    let run = |arguments: &str| {
+        let command = &mut octruss(directory.path(), arguments);
+        command.assert().success().get_output().stdout.clone()
+    };
+    for scheme in ["sqrt3", "butterfly", "butterfly-modified", "tri-quad"] {
+        let out = run(&format!(
+            "volume octahedron.obj --scheme {scheme} --json --picture {scheme}.png"
+        ));
+        let volume = number(&out, "volume");
+        assert!(directory.path().join(format!("{scheme}.png")).exists());
+        run(&format!(
+            "volume octahedron.obj --scheme {scheme} --target 2 -o large.obj"
+        ));
+        let large = run(&format!("volume large.obj --scheme {scheme} --json"));
+        assert!((number(&large, "volume") - 2.0).abs() < 1e-11, "{scheme}");
+        let out = run(&format!(
+            "bake octahedron.obj --scheme {scheme} --levels 2 --volume --json -o out.oct"
+        ));
+        let out: serde_json::Value = serde_json::from_slice(&out).expect("one JSON object");
+        let baked = &out["volumes"][0];
+        assert_eq!(baked["error_estimate"].as_f64(), Some(0.0), "{scheme}");
+        let got = baked["volume"].as_f64().expect("a number");
+        assert!(
+            (got / volume - 1.0).abs() < 1e-12,
+            "{scheme}: {got} {volume}"
+        );
+    }
+}
+
+const OCTAHEDRON: &str = "v 1 0 0\nv -1 0 0\nv 0 1.2 0\nv 0 -1 0.1\nv 0 0 1\nv 0.1 0 -1\n\
+                          f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+
 /// Two tetrahedra that are mirror images, with labels 1 and -2, between them the plane z = 0: each has
 /// half of the exact volume of the whole. Regions are extrapolated, so they are as exact as the
 /// report estimates. Modes are the cage stretched along x, y and z.

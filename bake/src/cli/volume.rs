@@ -21,8 +21,8 @@ use std::path::{Path, PathBuf};
 /// The mesh is the control mesh of a subdivision surface (.obj), of any genus, or a cage (.msh,
 /// .vtu), whose boundary is meant. It must be closed, a manifold, and consistently oriented; the volume is
 /// positive if faces run counter-clockwise seen from outside. Where no exact form is known (creases and
-/// corners; the schemes tri-quad, sqrt3 and the butterflies) the volume of refined polyhedra is
-/// extrapolated, and an error estimate is printed.
+/// corners) the volume of refined polyhedra is extrapolated, and an error estimate is printed; so are
+/// centroid and inertia of the schemes tri-quad, sqrt3 and the butterflies, whose volume is exact.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The control mesh (.obj) or cage (Gmsh .msh, VTK .vtu)
@@ -146,14 +146,16 @@ fn of_form(error: FormError) -> Error {
 
 fn figures(arguments: &Arguments, input: &Input) -> Result<Figures> {
     let own = input.surface.own(&input.points);
-    let mut figures = match input.surface.exact_scheme(arguments.scheme) {
-        Some(_) => exact(arguments, input, &own)?,
-        None => {
-            let scheme = arguments.scheme;
-            let [last, before] = input.surface.extrapolated_moments(scheme, &own)?;
-            extrapolated(arguments, last, before)
-        }
-    };
+    let scheme = arguments.scheme;
+    let mut figures = Figures::default();
+    if !input.surface.has_moments(scheme) && (arguments.moments || !input.surface.has_forms(scheme))
+    {
+        let [last, before] = input.surface.extrapolated_moments(scheme, &own)?;
+        figures = extrapolated(arguments, last, before);
+    }
+    if input.surface.has_forms(scheme) {
+        exact(arguments, input, &own, &mut figures)?;
+    }
     if arguments.device {
         let [form, _] = input.surface.control_forms(arguments.scheme)?;
         let format = match arguments.fraction_bits {
@@ -166,19 +168,18 @@ fn figures(arguments: &Arguments, input: &Input) -> Result<Figures> {
     Ok(figures)
 }
 
-fn exact(arguments: &Arguments, input: &Input, own: &[Point]) -> Result<Figures> {
+/// Puts the exact figures in: the volume, and moments where there are such.
+fn exact(arguments: &Arguments, input: &Input, own: &[Point], figures: &mut Figures) -> Result<()> {
     let (moved, _) = centred(own);
     let limit = input.surface.limit(arguments.scheme)?;
-    let mut figures = Figures {
-        volume: limit.volume(&moved).map_err(of_form)?,
-        ..Figures::default()
-    };
-    if arguments.moments {
+    figures.volume = limit.volume(&moved).map_err(of_form)?;
+    figures.error_estimate = None;
+    if arguments.moments && input.surface.has_moments(arguments.scheme) {
         let moments = limit.moments(own).map_err(of_form)?;
         figures.centroid = Some(moments.centroid);
         figures.inertia = Some(moments.inertia);
     }
-    Ok(figures)
+    Ok(())
 }
 
 fn extrapolated(arguments: &Arguments, last: Moments, before: Moments) -> Figures {

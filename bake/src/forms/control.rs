@@ -114,7 +114,7 @@ impl ControlForm {
 
 /// The cone over a polygon: six times `n` times its volume is the sum over edges and other corners of
 /// their determinants.
-fn fan(corners: usize) -> TrilinearForm<f64> {
+pub(super) fn fan(corners: usize) -> TrilinearForm<f64> {
     let mut form = TrilinearForm::zero(corners);
     let share = 1.0 / (6.0 * corners as f64);
     for from in 0..corners {

@@ -42,6 +42,18 @@ pub enum FormError {
         /// A face that is no triangle.
         face: usize,
     },
+    /// The scheme takes triangles and quadrilaterals only.
+    NotTrianglesAndQuads {
+        /// A face that is neither.
+        face: usize,
+    },
+    /// The scheme's own refinement refuses the mesh.
+    Refused {
+        /// Why.
+        reason: String,
+    },
+    /// The scheme's facets have forms of the volume, but none of the moments.
+    NoMoments,
     /// The number of points is not the number of vertices.
     Points {
         /// Vertices of the mesh.
@@ -130,6 +142,17 @@ impl fmt::Display for FormError {
                 f,
                 "face {face} is no triangle, and the scheme takes triangles only; triangulate \
                  the mesh or choose a scheme for polygons"
+            ),
+            Self::NotTrianglesAndQuads { face } => write!(
+                f,
+                "face {face} is neither a triangle nor a quadrilateral, and the scheme takes these \
+                 only; cut it into such or choose a scheme for polygons"
+            ),
+            Self::Refused { reason } => f.write_str(reason),
+            Self::NoMoments => write!(
+                f,
+                "facets of this scheme are not polynomials of finitely many pieces, so their moments \
+                 have no exact rule; take those of refined polyhedra, extrapolated"
             ),
             Self::Points { vertices, given } => {
                 write!(

@@ -10,6 +10,7 @@
 //! * [`mesh`]: the connectivity of closed surfaces.
 //! * [`scheme`]: refinement, facets and the order of their control points.
 //! * [`form`], [`local`], [`make`], [`cache`]: forms, how they are found, and where they are kept.
+//! * [`neighbourhood`]: forms of schemes whose facets lie in surroundings of many kinds.
 //! * [`surface`], [`moments`], [`target`]: the volume of a whole mesh and its gradient, centroid and
 //!   inertia, and the nearest mesh that encloses a given volume.
 //! * [`control`], [`device`]: the volume as one form over the control points, and in integers.
@@ -30,6 +31,7 @@ pub mod make;
 pub mod mesh;
 pub mod modes;
 pub mod moments;
+pub mod neighbourhood;
 mod patch;
 pub mod polyhedra;
 mod polynomial;

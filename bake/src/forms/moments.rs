@@ -16,7 +16,7 @@ use super::local;
 use super::patch::Patch;
 use super::polynomial::{Domain, Polynomial};
 use super::scheme::{Scheme, apply};
-use super::surface::{LimitSurface, centred, gather};
+use super::surface::{FacetKind, LimitSurface, centred, gather};
 
 /// Volume, centroid and inertia of a solid of unit density.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,8 @@ impl LimitSurface<f64> {
     ///
     /// # Errors
     ///
-    /// [`FormError::Points`] if the number of control points is not that of the mesh.
+    /// [`FormError::Points`] if the number of control points is not that of the mesh,
+    /// [`FormError::NoMoments`] if facets have forms of the volume only.
     pub fn integral(&self, points: &[[f64; 3]], exponents: [u8; 3]) -> Result<f64, FormError> {
         let degree = exponents
             .iter()
@@ -56,7 +57,8 @@ impl LimitSurface<f64> {
     ///
     /// # Errors
     ///
-    /// [`FormError::Points`] if the number of control points is not that of the mesh.
+    /// [`FormError::Points`] if the number of control points is not that of the mesh,
+    /// [`FormError::NoMoments`] if facets have forms of the volume only.
     pub fn first_moment(&self, points: &[[f64; 3]]) -> Result<[f64; 3], FormError> {
         self.integrate(points, &|point: [f64; 3]| point.map(|value| value / 4.0))
     }
@@ -68,21 +70,23 @@ impl LimitSurface<f64> {
         points: &[[f64; 3]],
         functions: &impl Fn([f64; 3]) -> [f64; N],
     ) -> Result<[f64; N], FormError> {
+        let scheme = Scheme::of_surface(self.scheme()).ok_or(FormError::NoMoments)?;
         let refined = self.refined_points(points)?;
-        let rule = Rule::new(self.scheme());
+        let rule = Rule::new(scheme);
         let mut children = BTreeMap::new();
         let mut total = [0.0; N];
         for facet in self.facets() {
             let own = gather(facet, &refined);
-            if facet.valence == self.scheme().regular_valence() {
+            let FacetKind::Valence(valence) = facet.kind else {
+                return Err(FormError::NoMoments);
+            };
+            if valence == scheme.regular_valence() {
                 add(&mut total, &rule.integrate(&own, functions));
                 continue;
             }
-            let matrices = match children.entry(facet.valence) {
+            let matrices = match children.entry(valence) {
                 Entry::Occupied(entry) => entry.into_mut(),
-                Entry::Vacant(entry) => {
-                    entry.insert(local::children::<f64>(self.scheme(), facet.valence)?)
-                }
+                Entry::Vacant(entry) => entry.insert(local::children::<f64>(scheme, valence)?),
             };
             add(&mut total, &irregular(&rule, matrices, own, functions));
         }
@@ -93,7 +97,8 @@ impl LimitSurface<f64> {
     ///
     /// # Errors
     ///
-    /// [`FormError::Points`] if the number of control points is not that of the mesh.
+    /// [`FormError::Points`] if the number of control points is not that of the mesh,
+    /// [`FormError::NoMoments`] if facets have forms of the volume only.
     pub fn moments(&self, points: &[[f64; 3]]) -> Result<Moments, FormError> {
         let (moved, middle) = centred(points);
         let integrals = self.integrate(&moved, &second_order)?;

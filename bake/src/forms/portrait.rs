@@ -1,8 +1,11 @@
 //! A picture of the facets, coloured by their share of the volume.
 
 use super::error::FormError;
-use super::scheme::{Scheme, apply};
+use super::mesh::ClosedMesh;
+use super::neighbourhood::Step;
+use super::scheme::{Row, Scheme, apply};
 use super::surface::{LimitSurface, centred};
+use crate::surface::SurfaceScheme;
 
 /// A refined surface with a colour for each triangle.
 #[derive(Clone, Debug, Default)]
@@ -38,18 +41,15 @@ impl LimitSurface<f64> {
         // The facet of each face, or of each vertex for Doo-Sabin.
         let mut facets = (0..self.facets().len()).collect::<Vec<_>>();
         for _ in 0..STEPS {
-            let fine = scheme.refine(&mesh);
-            points = apply(&scheme.rows(&mesh, &fine)?, &points);
-            facets = match scheme {
-                Scheme::DooSabin => (0..fine.vertices())
-                    .map(|v| facets[mesh.origin(v)])
-                    .collect(),
-                _ => (0..fine.faces()).map(|face| facets[face / 4]).collect(),
+            let fine = match Scheme::of_surface(scheme) {
+                Some(scheme) => Finer::new(scheme, &mesh, &facets)?,
+                None => Finer::by_core(scheme, &mesh, &facets)?,
             };
-            mesh = fine;
+            points = apply(&fine.rows, &points);
+            (mesh, facets) = (fine.mesh, fine.facets);
         }
         let mut portrait = Portrait::default();
-        if scheme == Scheme::DooSabin {
+        if scheme == SurfaceScheme::DooSabin {
             // A facet is the quadrilateral of the middles of the faces at its vertex.
             for face in 0..mesh.faces() {
                 let corners = mesh
@@ -71,6 +71,49 @@ impl LimitSurface<f64> {
             }
         }
         Ok(portrait)
+    }
+}
+
+/// A refined mesh, and the facet of each face (of each vertex for Doo-Sabin).
+struct Finer {
+    mesh: ClosedMesh,
+    rows: Vec<Row<f64>>,
+    facets: Vec<usize>,
+}
+
+impl Finer {
+    fn new(scheme: Scheme, mesh: &ClosedMesh, facets: &[usize]) -> Result<Self, FormError> {
+        let fine = scheme.refine(mesh);
+        let facets = match scheme {
+            Scheme::DooSabin => (0..fine.vertices())
+                .map(|v| facets[mesh.origin(v)])
+                .collect(),
+            _ => (0..fine.faces()).map(|face| facets[face / 4]).collect(),
+        };
+        Ok(Self {
+            rows: scheme.rows(mesh, &fine)?,
+            mesh: fine,
+            facets,
+        })
+    }
+
+    fn by_core(
+        scheme: SurfaceScheme,
+        mesh: &ClosedMesh,
+        facets: &[usize],
+    ) -> Result<Self, FormError> {
+        let step = Step::of(scheme, mesh)?;
+        let mut fine = vec![0; step.mesh.faces()];
+        for (face, facet) in facets.iter().enumerate() {
+            for child in step.children(face) {
+                fine[child] = *facet;
+            }
+        }
+        Ok(Self {
+            mesh: step.mesh,
+            rows: step.rows,
+            facets: fine,
+        })
     }
 }
 

@@ -6,6 +6,7 @@ use super::control::ControlForm;
 use super::error::FormError;
 use super::mesh::ClosedMesh;
 use super::moments::Moments;
+use super::neighbourhood;
 use super::polyhedra;
 use super::scheme::Scheme;
 use super::surface::LimitSurface;
@@ -86,44 +87,50 @@ impl Enclosure {
         !self.features.creases.is_empty() || !self.features.corners.is_empty()
     }
 
-    /// The scheme whose exact forms the surface's facets have, if there is one: with creases or corners
-    /// there is none.
-    pub fn exact_scheme(&self, scheme: SurfaceScheme) -> Option<Scheme> {
-        match self.has_features() {
-            true => None,
-            false => Scheme::of_surface(scheme),
-        }
+    /// True if the facets have forms of the volume: with creases or corners they have none, nor, in the
+    /// schemes that have them by neighbourhoods, beside vertices of two edges or very many.
+    pub fn has_forms(&self, scheme: SurfaceScheme) -> bool {
+        let is_ordinary = || {
+            let fits = neighbourhood::require(scheme, &self.mesh);
+            !matches!(fits, Err(FormError::Valence { .. }))
+        };
+        !self.has_features() && (Scheme::of_surface(scheme).is_some() || is_ordinary())
     }
 
-    /// The limit surface, cut into facets with exact forms.
+    /// True if the facets' moments have an exact rule, too.
+    pub fn has_moments(&self, scheme: SurfaceScheme) -> bool {
+        !self.has_features() && Scheme::of_surface(scheme).is_some()
+    }
+
+    /// The limit surface, cut into facets with forms of the volume.
     ///
     /// # Errors
     /// If the surface has none, or if the scheme does not take the mesh.
     pub fn limit(&self, scheme: SurfaceScheme) -> Result<LimitSurface<f64>> {
-        let Some(exact) = self.exact_scheme(scheme) else {
-            return Err(match self.has_features() {
-                true => Error::new("a surface with creases or corners has no exact form")
+        if self.has_features() {
+            return Err(
+                Error::new("a surface with creases or corners has no exact form")
                     .advise("leave the features out, or ask for the volume and moments alone"),
-                false => Error::new("surfaces of this scheme have no exact form").advise(
-                    "ask for the volume and moments alone, or take loop, loop-warren, \
-                     catmull-clark or doo-sabin",
-                ),
-            });
-        };
-        LimitSurface::new(exact, &self.mesh).map_err(of_form)
+            );
+        }
+        match Scheme::of_surface(scheme) {
+            Some(exact) => LimitSurface::new(exact, &self.mesh),
+            None => LimitSurface::by_neighbourhoods(scheme, &self.mesh),
+        }
+        .map_err(of_form)
     }
 
     /// The volume as one form over the file's vertices, and a second one that it should agree with:
     /// their difference is what it may be wrong by.
     ///
-    /// Without creases and corners both are the exact form of the schemes that have one. Otherwise the
+    /// Where facets have forms ([`Enclosure::has_forms`]) both are the exact form. Otherwise the
     /// volume of the polyhedra of two successive levels is extrapolated; the second form is from the
     /// levels before.
     ///
     /// # Errors
     /// If the scheme does not take the mesh or there are too many control points.
     pub fn control_forms(&self, scheme: SurfaceScheme) -> Result<[ControlForm; 2]> {
-        if self.exact_scheme(scheme).is_some() {
+        if self.has_forms(scheme) {
             let form = ControlForm::of_surface(&self.limit(scheme)?).map_err(of_form)?;
             let form = self.in_file(form);
             return Ok([form.clone(), form]);

@@ -8,13 +8,24 @@ use super::cache::FormField;
 use super::error::FormError;
 use super::form::TrilinearForm;
 use super::mesh::ClosedMesh;
+use super::neighbourhood::{self, Neighbourhood, Step};
 use super::scheme::{Row, Scheme, apply};
+use crate::surface::SurfaceScheme;
 
-/// A facet: its valence, its control points in the refined mesh, and where it came from.
+/// What a facet's form depends on, besides the scheme.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FacetKind {
+    /// Edges (corners of the face, for Doo-Sabin) at the one irregular place.
+    Valence(usize),
+    /// Its place among the kinds of neighbourhoods of this surface.
+    Neighbourhood(usize),
+}
+
+/// A facet: its kind and its control points.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facet {
-    /// Edges (corners of the face, for Doo-Sabin) at the irregular place.
-    pub valence: usize,
+    /// What its form depends on.
+    pub kind: FacetKind,
     /// Control points among the refined mesh's vertices, in the form's order.
     pub points: Vec<usize>,
 }
@@ -23,12 +34,12 @@ pub struct Facet {
 /// with the form of each facet.
 #[derive(Clone, Debug)]
 pub struct LimitSurface<F> {
-    scheme: Scheme,
+    scheme: SurfaceScheme,
     control_points: usize,
     refinements: Vec<Vec<Row<F>>>,
     refined: ClosedMesh,
     facets: Vec<Facet>,
-    forms: BTreeMap<usize, Arc<TrilinearForm<F>>>,
+    forms: BTreeMap<FacetKind, Arc<TrilinearForm<F>>>,
 }
 
 impl<F: FormField> LimitSurface<F> {
@@ -49,7 +60,7 @@ impl<F: FormField> LimitSurface<F> {
             refined = next;
         }
         let facet = |half_edge| Facet {
-            valence: scheme.valence(&refined, half_edge),
+            kind: FacetKind::Valence(scheme.valence(&refined, half_edge)),
             points: scheme.control_points(&refined, half_edge),
         };
         let facets = scheme
@@ -57,16 +68,19 @@ impl<F: FormField> LimitSurface<F> {
             .into_iter()
             .map(facet)
             .collect::<Vec<_>>();
-        valences.extend(facets.iter().map(|facet| facet.valence));
-        F::require(scheme, &valences)?;
         let mut forms = BTreeMap::new();
         for facet in &facets {
-            if let Entry::Vacant(entry) = forms.entry(facet.valence) {
-                entry.insert(F::form(scheme, facet.valence)?);
+            let FacetKind::Valence(valence) = facet.kind else {
+                continue;
+            };
+            valences.push(valence);
+            if let Entry::Vacant(entry) = forms.entry(facet.kind) {
+                entry.insert(F::form(scheme, valence)?);
             }
         }
+        F::require(scheme, &valences)?;
         Ok(Self {
-            scheme,
+            scheme: scheme.surface(),
             control_points: mesh.vertices(),
             refinements,
             refined,
@@ -77,7 +91,7 @@ impl<F: FormField> LimitSurface<F> {
 
     /// The scheme.
     #[must_use]
-    pub fn scheme(&self) -> Scheme {
+    pub fn scheme(&self) -> SurfaceScheme {
         self.scheme
     }
 
@@ -148,11 +162,54 @@ impl<F: FormField> LimitSurface<F> {
     /// The form of a facet.
     #[must_use]
     pub fn form_of(&self, facet: &Facet) -> &TrilinearForm<F> {
-        &self.forms[&facet.valence]
+        &self.forms[&facet.kind]
     }
 }
 
 impl LimitSurface<f64> {
+    /// The limit surface of a scheme whose facets lie in surroundings of many kinds; the schemes that have
+    /// forms of their own, but Doo-Sabin, may be taken too.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`neighbourhood::require`], and [`FormError::Refused`] if core refuses the mesh.
+    pub fn by_neighbourhoods(scheme: SurfaceScheme, mesh: &ClosedMesh) -> Result<Self, FormError> {
+        neighbourhood::require(scheme, mesh)?;
+        let mut refined = mesh.clone();
+        let mut refinements = Vec::new();
+        for _ in 0..neighbourhood::steps(scheme) {
+            let step = Step::of(scheme, &refined)?;
+            refinements.push(step.rows);
+            refined = step.mesh;
+        }
+        let faces = 0..refined.faces();
+        let mut kinds = BTreeMap::new();
+        let facets = faces.map(|face| {
+            let own = Neighbourhood::new(scheme, &refined, face);
+            let next = kinds.len();
+            (*kinds.entry(own.patch).or_insert(next), own.points)
+        });
+        let facets = facets.collect::<Vec<_>>();
+        let mut patches = kinds.into_iter().collect::<Vec<_>>();
+        patches.sort_unstable_by_key(|(_, kind)| *kind);
+        let patches = patches.into_iter().map(|(patch, _)| patch);
+        let local = neighbourhood::forms(scheme, &patches.collect::<Vec<_>>())?;
+        let facets = facets.into_iter().map(|(kind, points)| Facet {
+            kind: FacetKind::Neighbourhood(kind),
+            points: local[kind].places.iter().map(|&at| points[at]).collect(),
+        });
+        let kinds = (0..).map(FacetKind::Neighbourhood);
+        let forms = local.iter().map(|form| Arc::clone(&form.form));
+        Ok(Self {
+            scheme,
+            control_points: mesh.vertices(),
+            refinements,
+            refined,
+            facets: facets.collect(),
+            forms: kinds.zip(forms).collect(),
+        })
+    }
+
     /// The volume, and its derivative by every control point.
     ///
     /// # Errors

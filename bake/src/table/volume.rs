@@ -410,7 +410,7 @@ pub(super) fn moments_of_surface(
     combined: &Combined,
 ) -> Result<[ModeMoments; 2]> {
     let surface = Enclosure::new(&mesh.faces, &mesh.features)?;
-    if surface.exact_scheme(scheme).is_some() {
+    if surface.has_moments(scheme) {
         let limit = surface.limit(scheme)?;
         // One number of points for the mesh and all poses: it was checked.
         let moments = combined.moments(|points| {

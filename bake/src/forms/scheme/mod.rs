@@ -62,7 +62,8 @@ impl Scheme {
         Self::ALL.into_iter().find(|scheme| scheme.name() == name)
     }
 
-    /// The form scheme of a surface scheme, if it has exact forms.
+    /// The form scheme of a surface scheme, if it has forms for each valence; the
+    /// others have them for each [neighbourhood](super::neighbourhood).
     #[must_use]
     pub fn of_surface(scheme: SurfaceScheme) -> Option<Self> {
         match scheme {
@@ -74,6 +75,17 @@ impl Scheme {
             | SurfaceScheme::Butterfly
             | SurfaceScheme::ButterflyModified
             | SurfaceScheme::TriQuad => None,
+        }
+    }
+
+    /// The surface scheme of this form scheme.
+    #[must_use]
+    pub fn surface(self) -> SurfaceScheme {
+        match self {
+            Self::DooSabin => SurfaceScheme::DooSabin,
+            Self::CatmullClark => SurfaceScheme::CatmullClark,
+            Self::Loop => SurfaceScheme::Loop,
+            Self::LoopWarren => SurfaceScheme::LoopWarren,
         }
     }
 
