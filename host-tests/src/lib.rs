@@ -30,11 +30,13 @@
 //! - [`reference_health`] is the health of poses written again; [`random_health`] draws its cases.
 //! - [`reference_project`] is the projection of poses written again; [`random_project`] draws its problems, and
 //!   [`sections`] lays forms and limits out as in a bundle.
+//! - [`adaptive_count`] counts the triangles of adaptive square-root-3 and Loop meshes over tolerances.
 //! - [`qemu`] runs the firmware's images on emulated processors and reads what they return.
 //! - [`reference_mixed`] is Hakenberg's scheme for mixed solids written again in the same way;
 //!   [`random_mixed`] draws mixed solids, and [`mixed_subject`] drives the crate under test on
 //!   them, over bits and over exact rows ([`blend_f64`]: over rows of doubles).
 
+pub mod adaptive_count;
 pub mod blend_f64;
 pub mod box_spline;
 pub mod box_spline_cases;

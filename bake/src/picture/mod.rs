@@ -11,7 +11,7 @@ mod plot;
 mod text;
 mod view;
 
-pub use plot::{Curve, plot};
+pub use plot::{Curve, LogCurve, LogPlot, log_plot, plot};
 pub use view::View;
 
 use crate::error::{Error, Result};

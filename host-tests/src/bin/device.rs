@@ -1,11 +1,13 @@
-//! Runs the firmware's images on emulated processors. `cargo xtask` calls it; it expects the
-//! images to be built.
+//! Runs the firmware's images on emulated processors and draws what the documentation shows. `cargo xtask` calls
+//! it; it expects the images to be built.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::{Parser, Subcommand, ValueEnum as _};
+use octruss_host_tests::adaptive_count::loop_rule::Green;
+use octruss_host_tests::adaptive_count::{self, picture};
 use octruss_host_tests::performance::inverse::{self, Sources};
 use octruss_host_tests::performance::projection;
 use octruss_host_tests::performance::skin;
@@ -77,6 +79,15 @@ enum Job {
         #[arg(long, default_value = "models")]
         models: PathBuf,
     },
+    /// Counts the triangles of adaptive square-root-3 and Loop meshes over tolerances, and draws them; runs on the host
+    Adaptive {
+        /// The folder with the example's control meshes
+        #[arg(long, default_value = "models")]
+        models: PathBuf,
+        /// The picture
+        #[arg(long, default_value = "docs/adaptive-triangles.png")]
+        output: PathBuf,
+    },
     /// Counts the instructions of ticks of the goals' solver
     Goals {
         /// Where the files of the run go
@@ -123,6 +134,7 @@ fn main() -> ExitCode {
             model,
         } => play(directory, cage, model),
         Job::Holding { directory, models } => hold(&directory, models),
+        Job::Adaptive { models, output } => compare_adaptive(&models, &output),
         Job::Goals { directory, models } => goals(&directory, models),
         Job::Bench => bench(),
         Job::Skin {
@@ -207,6 +219,17 @@ fn compare_skins(directory: &Path, mesh: &Path, motion: &Path) -> Result<bool, d
     let made = skin::make(directory, mesh, motion)?;
     let figures = skin::figures(directory)?;
     println!("{}", skin::section(&made, &figures)?);
+    Ok(true)
+}
+
+fn compare_adaptive(models: &Path, output: &Path) -> Result<bool, demo::Failure> {
+    let mut meshes = Vec::new();
+    for mesh in adaptive_count::meshes::all(models)? {
+        let counts = adaptive_count::counts(&mesh, Green::Halves);
+        meshes.push((mesh, counts));
+    }
+    print!("{}", picture::table(&meshes));
+    std::fs::write(output, picture::draw(&meshes)?)?;
     Ok(true)
 }
 
