@@ -90,6 +90,19 @@ fn the_solver_finds_the_amplitudes_that_the_table_was_moved_by() {
         .collect();
     let goals = moved(&wanted);
     let fixed: Vec<i32> = wanted.iter().map(|own| (own * ONE) as i32).collect();
+    // The baked displacements: the pose, and the effectors in the table's rows, are the ones made of the file's modes.
+    let actuation = bundle.actuation::<i32>().unwrap().unwrap();
+    let mut pose = vec![[0; 3]; VERTICES];
+    assert_eq!(actuation.pose(&fixed, &mut pose), Ok(0));
+    let mut out = vec![[0; 3]; table.rows()];
+    table.apply(0..table.rows(), &pose, &mut out).unwrap();
+    assert_eq!(actuation.effector_rows().len(), 32);
+    for (&row, goal) in actuation.effector_rows().iter().zip(&goals) {
+        for (own, other) in out[row as usize].iter().zip(goal) {
+            // Sixteen displacements, each rounded by half a unit, of at most 0.4 of them; rest and weights beside.
+            assert!(own.abs_diff(*other) <= 6, "{own} {other}");
+        }
+    }
     let hold = VolumeGoal::Hold(volume.volume(&fixed).unwrap());
     for hold in [None, Some((&volume, hold))] {
         let mut state = InverseState::new(&solver);

@@ -5,7 +5,8 @@ use crate::error::{Error, Result};
 use crate::mesh::Point;
 use crate::pack::writer::Section;
 use crate::refine::rows::Row;
-use octruss::bundle::SECTION_INVERSE;
+use octruss::bundle::{SECTION_ACTUATION, SECTION_INVERSE};
+use octruss::control::actuation::{ActuationRecord, DISPLACEMENT_LIMIT};
 use octruss::control::inverse::{
     GAIN_LIMIT, HESSIAN_LIMIT, Inverse, InverseRecord, LEAST_CURVATURE, MOST_ACTUATORS,
     MOST_EFFECTORS, reciprocal,
@@ -96,11 +97,13 @@ pub(super) struct Wanted<'a> {
     /// The real weights of every model point.
     pub rows: &'a [Row],
     pub rest_model: &'a [[i32; 3]],
+    /// The model's point of each of the table's rows.
+    pub order: &'a [usize],
     pub format: Format,
 }
 
 impl Wanted<'_> {
-    /// The sections: stage 0 for effectors, stage 1 for sensors.
+    /// The sections: solvers, stage 0 for effectors and stage 1 for sensors, and the actuators' displacements.
     pub fn sections(&self) -> Result<(Vec<Section>, Vec<SolverReport>)> {
         let Solvers {
             effectors, sensors, ..
@@ -117,7 +120,51 @@ impl Wanted<'_> {
                 });
             }
         }
+        if !sections.is_empty() {
+            sections.push(self.actuation()?);
+        }
         Ok((sections, reports))
+    }
+
+    /// How far every actuator moves every control point at amplitude one, each rounded once, and the rows of the
+    /// effectors.
+    fn actuation(&self) -> Result<Section> {
+        let mut displacements = Vec::with_capacity(3 * self.cage.len() * self.modes.len());
+        for (point, rest) in self.cage.iter().enumerate() {
+            for axis in 0..3 {
+                let ways = self
+                    .modes
+                    .iter()
+                    .map(|mode| ((mode[point][axis] - rest[axis]) / self.format.unit()).round());
+                let ways: Vec<f64> = ways.collect();
+                let sum: f64 = ways.iter().map(|way| way.abs()).sum();
+                if sum > DISPLACEMENT_LIMIT as f64 {
+                    return Err(Error::new(format!(
+                        "the modes together displace control point {point} (counted from 0) too far for the device's sums"
+                    ))
+                    .advise("take fewer --fraction-bits, or smaller modes"));
+                }
+                displacements.extend(ways.iter().map(|&way| way as i32));
+            }
+        }
+        let effectors = &self.solvers.effectors;
+        let row = |own: &Effector| self.order.iter().position(|&point| point == own.point);
+        let rows: Option<Vec<u32>> = effectors
+            .iter()
+            .map(|own| row(own).and_then(|row| u32::try_from(row).ok()))
+            .collect();
+        let rows = rows.ok_or_else(|| Error::new("an effector is no point of the model"))?;
+        let record = ActuationRecord {
+            control_points: (self.cage.len() as u32).into(),
+            actuators: (self.modes.len() as u32).into(),
+            effectors: (rows.len() as u32).into(),
+            reserved: [0; 4],
+        };
+        Ok(Section {
+            kind: SECTION_ACTUATION,
+            stage: 0,
+            bytes: [record.as_bytes(), displacements.as_bytes(), rows.as_bytes()].concat(),
+        })
     }
 
     fn solver(&self, points: &[Effector], sensors: bool) -> Result<(Vec<u8>, SolverReport)> {

@@ -199,6 +199,7 @@ pub fn bake(input: Input<'_>, options: &Options, progress: &mut dyn Progress) ->
         cage: &cage.points,
         rows: &rows,
         rest_model: &rest_model,
+        order: &packed.order,
         format,
     };
     let (of_solvers, solvers) = wanted.sections().map_err(of_model)?;

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::control::actuation::ActuationError;
 use crate::control::health::HealthError;
 use crate::control::inverse::InverseError;
 use crate::control::project::ProjectError;
@@ -83,6 +84,8 @@ pub enum BundleError {
     Cells(HealthError),
     /// Limits of poses are not sound.
     Limits(ProjectError),
+    /// Actuators are not sound.
+    Actuation(ActuationError),
     /// A solver for goals is not sound.
     Inverse(InverseError),
     /// The faces round the point of a row are not sound: a neighbour that does not exist, too many corners,
@@ -147,6 +150,7 @@ impl fmt::Display for BundleError {
             Self::Cells(error) => write!(f, "the bundle's cells are not sound: {error}"),
             Self::Limits(error) => write!(f, "the bundle's limits are not sound: {error}"),
             Self::Springs(error) => write!(f, "the bundle's springs are not sound: {error}"),
+            Self::Actuation(error) => write!(f, "the bundle's actuators are not sound: {error}"),
             Self::Inverse(error) => write!(f, "the bundle's solver for goals is not sound: {error}"),
             Self::Normals { row } => {
                 write!(f, "the faces round the point of row {row} are not sound")

@@ -132,6 +132,9 @@ pub const SECTION_CENTROID_MODES: u32 = 15;
 /// [`Section::kind`]: a solver for goals over modes; [`Section::stage`] is its number: 0 for effectors, 1 for sensors.
 pub const SECTION_INVERSE: u32 = 11;
 
+/// [`Section::kind`]: the displacements of actuators, and the rows of effectors.
+pub const SECTION_ACTUATION: u32 = 17;
+
 /// What the section of normals starts with: 16 bytes. The fans follow, `u16` each.
 #[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]

@@ -7,13 +7,14 @@ use zerocopy::FromBytes;
 use super::error::BundleError;
 use super::header::{
     BOUNDARY_FIXED, BOUNDARY_LOOP, Header, MAGIC, NormalsRecord, RIM_FIXED, RIM_SPLINE,
-    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_CELLS,
+    SCHEME_LOOP, SCHEME_MIXED, SCHEME_TET_OCT, SCHEME_TRI_QUAD, SECTION_ACTUATION, SECTION_CELLS,
     SECTION_CENTROID_MODES, SECTION_INVERSE, SECTION_LIMITS, SECTION_MODEL_POINTS, SECTION_NORMALS,
     SECTION_REST_CAGE, SECTION_RIG, SECTION_SPRINGS, SECTION_VOLUME, SECTION_VOLUME_MODES, Section,
     VERSION,
 };
 use super::layout::{ALIGNMENT, Sections, checksum, size};
 use super::stage::{Body, StageParts, cast};
+use crate::control::actuation::Actuation;
 use crate::control::health::Health;
 use crate::control::inverse::Inverse;
 use crate::control::project::Limits;
@@ -336,6 +337,24 @@ impl<'a> Bundle<'a> {
         Inverse::from_section(bytes)
             .map(Some)
             .map_err(BundleError::Inverse)
+    }
+
+    /// The pose that actuators make, and the rows of the effectors of [`Bundle::inverse`]; `None` if no actuators were
+    /// baked. They are proved sound here, not when the bundle is opened.
+    ///
+    /// # Errors
+    ///
+    /// [`BundleError::FractionBits`] if the bundle was baked for another format, [`BundleError::Actuation`] if the
+    /// actuators are not sound.
+    pub fn actuation<C: Coordinate>(&self) -> Result<Option<Actuation<'a>>, BundleError> {
+        self.check_format::<C>()?;
+        let Some(bytes) = self.sections.find(SECTION_ACTUATION, 0)? else {
+            return Ok(None);
+        };
+        let rows = size(self.header.rows.get()).ok_or(BundleError::Header)?;
+        Actuation::from_section(bytes, self.rest_cage, rows)
+            .map(Some)
+            .map_err(BundleError::Actuation)
     }
 
     /// The faces round the model's points, for their normals; `None` if they were not baked. They are proved

@@ -4,6 +4,7 @@
 //! memory. A call ends after a bounded number of steps, respects the hard limits (bounds, rates)
 //! whatever it is asked for, and says what it had to give up.
 //!
+//! * [`actuation`]: the pose that actuators make, and which rows of the table the effectors are.
 //! * [`health`]: the cells that a pose folds over, and how far it is from that.
 //! * [`inverse`]: amplitudes of a few actuation modes that bring points of the model to their goals while the
 //!   enclosed volume is held; or, the other way round, the amplitudes that measured points tell of.
@@ -13,6 +14,7 @@
 //! * [`springs`]: the control points as masses on damped springs that strive for a goal shape, are pushed
 //!   and hit things.
 
+pub mod actuation;
 pub mod health;
 pub mod inverse;
 pub mod project;
