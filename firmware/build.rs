@@ -10,9 +10,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The images that log through `defmt`. `apply` does not: it holds the apply path alone.
-const LOGGING_IMAGES: [&str; 9] = [
+const LOGGING_IMAGES: [&str; 10] = [
     "bench",
     "conformance",
+    "controller",
     "demo",
     "faults",
     "holding",
@@ -88,7 +89,7 @@ fn find_demo(workspace: &Path) {
         || workspace.join("target").join("demo"),
         |directory| workspace.join(directory),
     );
-    let files = ["finger.oct", "finger.poses"].map(|name| directory.join(name));
+    let files = ["finger.oct", "finger.poses", "controller.oct"].map(|name| directory.join(name));
     for file in &files {
         println!("cargo::rerun-if-changed={}", file.display());
     }

@@ -17,6 +17,7 @@
 //! * [`bundle`]: the bytes for the device's flash.
 //! * [`mod@deform`]: the device's own code applied on the host.
 //! * [`mod@slice`]: values on a plane and along a line, and the picture of them.
+//! * [`drive`]: the host's end of a running controller.
 //! * [`mod@write`], [`picture`], [`animation`]: files to look at.
 //!
 //! No mathematics that a device could also need is written here: masks, numbering, rounding and the
@@ -27,6 +28,7 @@ pub mod animation;
 pub mod bundle;
 pub mod check;
 pub mod deform;
+pub mod drive;
 pub mod dynamics;
 pub mod error;
 pub mod forms;

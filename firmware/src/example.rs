@@ -1,5 +1,25 @@
 //! The baked example: the bundle and the motion that `cargo xtask demo` bakes, in flash.
 
+/// Includes the bundle of the interactive controller and evaluates to its bytes, aligned to 8 bytes.
+///
+/// A macro, for the reason of [`include_example`].
+#[macro_export]
+macro_rules! include_controller {
+    () => {{
+        #[cfg(not(demo_is_baked))]
+        compile_error!(
+            "the controller's bundle is not baked: run `cargo xtask demo`, or set OCTRUSS_DEMO_DIR to the directory \
+             that holds controller.oct"
+        );
+        #[cfg(not(demo_is_baked))]
+        let bundle: &[u8] = &[];
+        #[cfg(demo_is_baked)]
+        let bundle: &[u8] =
+            octruss::include_bundle!(concat!(env!("OCTRUSS_DEMO_DIR"), "/controller.oct"));
+        bundle
+    }};
+}
+
 /// Includes the baked example and evaluates to `(bundle, poses)`, the bytes of both, each aligned
 /// to 8 bytes. The poses are frames one behind the other; a frame is x, y and z of every control
 /// point, raw bits, signed 32-bit, little-endian.

@@ -1,10 +1,11 @@
 //! What the Cortex-M images of octruss share.
 //!
 //! ```text
-//!   images   demo        conformance      bench        faults        (apply stands alone)
-//!              |              |              |            |
-//!   shared   frame          cases            |            |          also built for the host
-//!              |              |              |            |
+//!   images   controller   demo       conformance   bench   faults    (apply stands alone)
+//!              |            |            |          |        |
+//!   shared   controller   frame        cases        |        |       also built for the host
+//!            link, actuators           |            |        |
+//!              |            |            |          |        |
 //!   device   start, exit, fault, stack, sections, instructions       Cortex-M only
 //!              |
 //!   board    board::mps2                                             one file a board
@@ -21,7 +22,9 @@
 //!   there and choosing its feature.
 #![no_std]
 
+pub mod actuators;
 pub mod cases;
+pub mod controller;
 mod example;
 pub mod exit;
 pub mod frame;

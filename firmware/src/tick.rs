@@ -9,4 +9,7 @@ pub trait Tick {
     /// Sleeps until the next tick and returns the number of ticks since the last call: 1 if the
     /// loop kept up (at once, if the tick came a moment ago), more if it missed some.
     fn wait(&mut self) -> u32;
+
+    /// Microseconds since the last tick, counted by the same timer. It starts again with every tick.
+    fn elapsed_us(&self) -> u32;
 }

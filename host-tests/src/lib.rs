@@ -68,6 +68,7 @@ pub mod reference_box_spline;
 pub mod reference_control;
 pub mod reference_health;
 pub mod reference_mixed;
+pub mod reference_motion;
 pub mod reference_project;
 pub mod reference_rig;
 pub mod reference_springs;

@@ -5,8 +5,8 @@
 
 use octruss_firmware::link::wire::{self, ENCODED_BYTES};
 use octruss_firmware::link::{
-    BYTES_A_TICK, COMMANDS_A_TICK, Command, Faults, Goal, Header, RING_BYTES, Receiver, Ring,
-    SetPoint, Telemetry,
+    BYTES_A_TICK, Command, FRAMES_A_TICK, Faults, Goal, Header, RING_BYTES, Receiver, Ring, Target,
+    Telemetry,
 };
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -71,17 +71,17 @@ fn the_checksum_is_that_of_the_catalogue() {
 
 #[test]
 fn every_command_is_framed_as_written_and_read_back() {
-    let goals = (0..12).map(|point| Goal {
-        point,
+    let goals = (0..12).map(|effector| Goal {
+        effector,
         place: [i32::MIN, 0, i32::MAX],
     });
-    let set_points = (0..16).map(|channel| SetPoint {
+    let targets = (0..16).map(|channel| Target {
         channel,
-        displacement: -1,
+        amplitude: -1,
     });
     let commands = [
         Command::Goals(goals.collect()),
-        Command::Actuators(set_points.collect()),
+        Command::Actuators(targets.collect()),
         Command::Hold,
         Command::Query,
         Command::Watch {
@@ -164,8 +164,8 @@ fn a_full_ring_loses_bytes_and_counts_them() {
 #[test]
 fn a_flood_is_refused_beyond_what_a_tick_takes() {
     let mut receiver = Receiver::new();
-    let stream: Vec<u8> = (0..20).flat_map(|n| ended(frame(&query(n)))).collect();
-    assert_eq!(hear(&mut receiver, &stream).len(), COMMANDS_A_TICK);
+    let stream: Vec<u8> = (0..44).flat_map(|n| ended(frame(&query(n)))).collect();
+    assert_eq!(hear(&mut receiver, &stream).len(), FRAMES_A_TICK);
     assert_eq!(receiver.faults().flood, 12);
     // Every byte of a tick's share is looked at, and not one more.
     let mut taken = 0;

@@ -25,12 +25,17 @@ const UNIT: &str = "mm";
 /// Random cases of `test` on each subject; `verify` takes more.
 const TEST_CASES: u32 = 150;
 
+/// Frames that the running controller must refuse in `demo`; `verify` sends more.
+const WRONG_FRAMES: u32 = 500;
+const WRONG_FRAMES_OF_PROOF: u32 = 10_000;
+
 /// Bakes the example, bends it on an emulated processor, checks every bit.
 pub fn demo() -> Result<(), Failure> {
     setup::ensure(&[Need::Targets, Need::Emulator])?;
     bake_example()?;
     build_images()?;
-    play_example()
+    play_example()?;
+    drive_controller(Build::Debug, WRONG_FRAMES)
 }
 
 /// Runs the tests on the host and on the emulated processors.
@@ -89,6 +94,9 @@ pub fn ci() -> Result<(), Failure> {
     })?;
     test_steps(&mut steps)?;
     steps.step("the demo", play_example)?;
+    steps.step("the controller over its serial port", || {
+        drive_controller(Build::Debug, WRONG_FRAMES)
+    })?;
     steps.step("lints", || {
         // The default members are what builds for the host; the firmware's library does too.
         lint(&["--all-targets"])?;
@@ -178,6 +186,9 @@ pub fn verify(cases: u32, seed: u32) -> Result<(), Failure> {
         let files = ["--mesh", SKIN, "--motion", SKIN_MOTION, "--directory"];
         let job = [&["skin"][..], &files, &[path(&directory)?]].concat();
         device(Build::Release, &job)
+    })?;
+    steps.step("the controller over its serial port", || {
+        drive_controller(Build::Release, WRONG_FRAMES_OF_PROOF)
     })?;
     // One in ten of the cases above is damaged; the host's tests compare sound ones alone.
     let sound = (cases - cases / 10).to_string();
@@ -372,6 +383,14 @@ fn bake_example() -> Result<(), Failure> {
         .args([&bundle])
         .run()?;
     octruss()
+        .args(["bake", CAGE, "--model", MODEL, "--scheme", SCHEME])
+        .args(["--levels", LEVELS, "--unit", UNIT, "--volume"])
+        .args(["--modes", "models/finger-modes.csv"])
+        .args(["--actuators", "models/finger-actuators.csv"])
+        .args(["--effectors", "models/finger-effectors.csv", "--output"])
+        .args([directory.join("controller.oct")])
+        .run()?;
+    octruss()
         .args(["poses", CAGE, "--motion", MOTION, "--bundle"])
         .args([&bundle])
         .args(["--output"])
@@ -387,6 +406,8 @@ fn build_images() -> Result<(), Failure> {
         "--features",
         "board-netduinoplus2",
         "--bin",
+        "controller",
+        "--bin",
         "demo",
         "--bin",
         "faults",
@@ -396,7 +417,7 @@ fn build_images() -> Result<(), Failure> {
     let aside = images.join("netduinoplus2");
     std::fs::create_dir_all(&aside)
         .map_err(|error| format!("cannot make {}: {error}", aside.display()))?;
-    for image in ["demo", "faults"] {
+    for image in ["controller", "demo", "faults"] {
         std::fs::copy(images.join(image), aside.join(image))
             .map_err(|error| format!("cannot copy the image {image}: {error}"))?;
     }
@@ -433,6 +454,24 @@ fn play_example() -> Result<(), Failure> {
             cage_file,
             model,
             model_file,
+        ],
+    )
+}
+
+/// Drives the controller that has been baked and built.
+fn drive_controller(build: Build, wrong_frames: u32) -> Result<(), Failure> {
+    let directory = workspace::example()?;
+    let wrong_frames = wrong_frames.to_string();
+    device(
+        build,
+        &[
+            "controller",
+            "--directory",
+            path(&directory)?,
+            "--motion",
+            MOTION,
+            "--wrong-frames",
+            &wrong_frames,
         ],
     )
 }

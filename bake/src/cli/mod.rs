@@ -5,6 +5,7 @@ mod bake;
 mod bake_surface;
 mod checkerboard;
 mod deform;
+mod drive;
 mod forms;
 mod info;
 mod locate;
@@ -47,6 +48,7 @@ enum Command {
     Slice(slice::Arguments),
     Checkerboard(checkerboard::Arguments),
     Poses(poses::Arguments),
+    Drive(drive::Arguments),
     Volume(volume::Arguments),
     Forms(forms::Arguments),
 }
@@ -62,6 +64,7 @@ pub fn run() -> ExitCode {
         Command::Slice(arguments) => slice::run(&arguments),
         Command::Checkerboard(arguments) => checkerboard::run(&arguments),
         Command::Poses(arguments) => poses::run(&arguments),
+        Command::Drive(arguments) => drive::run(&arguments),
         Command::Volume(arguments) => volume::run(&arguments),
         Command::Forms(arguments) => forms::run(&arguments),
     };

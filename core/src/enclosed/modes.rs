@@ -78,6 +78,12 @@ impl<'a> VolumeModes<'a> {
         i64::from(self.exponent).wrapping_sub(29)
     }
 
+    /// The coefficients, in the order of [`VolumeModes::new_checked`].
+    #[must_use]
+    pub const fn coefficients(&self) -> &'a [i32] {
+        self.coefficients
+    }
+
     /// Number of modes.
     #[must_use]
     pub const fn modes(&self) -> usize {

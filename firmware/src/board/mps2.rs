@@ -4,15 +4,18 @@
 //! Registers are those of the Cortex-M System Design Kit (Arm DDI 0479) and of the application
 //! notes' memory maps. Everything runs from the one 25 MHz clock.
 
+use core::cell::RefCell;
 use core::convert::Infallible;
 use core::ptr;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
+use cortex_m::interrupt::Mutex;
 use cortex_m::peripheral::NVIC;
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin};
 use embedded_io::{ErrorType, Read, Write};
 
+use crate::link::Filler;
 use crate::tick::Tick;
 
 /// The clock of processor, timers and serial port, in hertz.
@@ -24,6 +27,12 @@ const TIMER0: usize = 0x4000_0000;
 const TIMER1: usize = 0x4000_1000;
 const UART0: usize = 0x4000_4000;
 const FPGA_IO: usize = 0x4002_8000;
+
+/// The interrupt of serial port 0 that says that a byte has arrived.
+const RECEIVE_INTERRUPT: i16 = 0;
+
+/// Where the bytes go that arrive on serial port 0.
+static RECEIVED: Mutex<RefCell<Option<Filler<'static>>>> = Mutex::new(RefCell::new(None));
 
 /// The interrupt of timer 0.
 const TIMER0_INTERRUPT: i16 = 8;
@@ -93,12 +102,29 @@ impl Board {
 
 /// Handles the interrupts of this file. False if `number` is not one of them.
 pub(crate) fn on_interrupt(number: i16) -> bool {
-    if number != TIMER0_INTERRUPT {
-        return false;
+    match number {
+        TIMER0_INTERRUPT => {
+            Timer::new(TIMER0).clear_interrupt();
+            TICKS.fetch_add(1, Ordering::Relaxed);
+        }
+        RECEIVE_INTERRUPT => receive(),
+        _ => return false,
     }
-    Timer::new(TIMER0).clear_interrupt();
-    TICKS.fetch_add(1, Ordering::Relaxed);
     true
+}
+
+/// Takes the bytes that have arrived.
+fn receive() {
+    Register::new(UART0, 0x0c).write(Serial::RECEIVED_INTERRUPT);
+    let mut serial = Serial::at();
+    cortex_m::interrupt::free(|section| {
+        let mut filler = RECEIVED.borrow(section).borrow_mut();
+        while let Some(byte) = serial.take() {
+            if let Some(filler) = filler.as_mut() {
+                filler.put(byte);
+            }
+        }
+    });
 }
 
 /// An LED.
@@ -142,13 +168,36 @@ impl Serial {
     const TRANSMIT_ENABLE: u32 = 1 << 0;
     const RECEIVE_ENABLE: u32 = 1 << 1;
 
-    fn start() -> Self {
-        Register::new(UART0, 0x10).write(CLOCK_HZ / Self::BAUD_HZ);
-        Register::new(UART0, 0x08).write(Self::TRANSMIT_ENABLE | Self::RECEIVE_ENABLE);
+    const RECEIVE_INTERRUPT_ENABLE: u32 = 1 << 3;
+    const RECEIVED_INTERRUPT: u32 = 1 << 1;
+
+    const fn at() -> Self {
         Serial {
             data: Register::new(UART0, 0x00),
             state: Register::new(UART0, 0x04),
         }
+    }
+
+    fn take(&mut self) -> Option<u8> {
+        // Bits 8 to 31 read as zero.
+        (self.state.read() & Self::RECEIVE_FULL != 0).then(|| self.data.read() as u8)
+    }
+
+    /// From here on an interrupt puts the bytes that arrive into `filler`; they can no longer be read from here.
+    pub fn listen(&mut self, filler: Filler<'static>) {
+        cortex_m::interrupt::free(|section| RECEIVED.borrow(section).replace(Some(filler)));
+        let enabled = Self::TRANSMIT_ENABLE | Self::RECEIVE_ENABLE | Self::RECEIVE_INTERRUPT_ENABLE;
+        Register::new(UART0, 0x08).write(enabled);
+        // SAFETY: no critical section relies on this interrupt being masked.
+        unsafe { NVIC::unmask(ReceiveInterrupt) };
+        // A byte that came before has raised no interrupt, and the next ones wait behind it.
+        receive();
+    }
+
+    fn start() -> Self {
+        Register::new(UART0, 0x10).write(CLOCK_HZ / Self::BAUD_HZ);
+        Register::new(UART0, 0x08).write(Self::TRANSMIT_ENABLE | Self::RECEIVE_ENABLE);
+        Self::at()
     }
 }
 
@@ -182,11 +231,8 @@ impl Read for Serial {
         while self.state.read() & Self::RECEIVE_FULL == 0 {}
         let mut count = 0;
         for byte in bytes {
-            if self.state.read() & Self::RECEIVE_FULL == 0 {
-                break;
-            }
-            // Bits 8 to 31 read as zero.
-            *byte = self.data.read() as u8;
+            let Some(received) = self.take() else { break };
+            *byte = received;
             count += 1;
         }
         Ok(count)
@@ -281,6 +327,22 @@ impl Tick for PeriodicTimer {
                 return passed;
             }
         }
+    }
+
+    fn elapsed_us(&self) -> u32 {
+        let (reload, value) = (self.timer.reload.read(), self.timer.value.read());
+        reload.saturating_sub(value) / CLOCKS_A_MICROSECOND
+    }
+}
+
+/// The interrupt of received bytes as the interrupt controller wants it named.
+#[derive(Clone, Copy)]
+struct ReceiveInterrupt;
+
+// SAFETY: always the same number, which is that of serial port 0's receiver.
+unsafe impl cortex_m::interrupt::InterruptNumber for ReceiveInterrupt {
+    fn number(self) -> u16 {
+        RECEIVE_INTERRUPT as u16
     }
 }
 

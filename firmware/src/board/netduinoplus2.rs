@@ -4,15 +4,18 @@
 //! serial port is USART1 on the pins PB6 and PB7, the LED is the board's blue one on PA10, and the timers
 //! are TIM2 and TIM5, which have 32 bits.
 
+use core::cell::RefCell;
 use core::convert::Infallible;
 use core::ptr;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
+use cortex_m::interrupt::Mutex;
 use cortex_m::peripheral::NVIC;
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin};
 use embedded_io::{ErrorType, Read, Write};
 
+use crate::link::Filler;
 use crate::tick::Tick;
 
 /// The clock of the processor and of the serial port after a reset, in hertz.
@@ -30,6 +33,12 @@ const USART1: usize = 0x4001_1000;
 const GPIOA: usize = 0x4002_0000;
 const GPIOB: usize = 0x4002_0400;
 const RCC: usize = 0x4002_3800;
+
+/// The interrupt of USART1.
+const USART1_INTERRUPT: i16 = 37;
+
+/// Where the bytes go that arrive on USART1.
+static RECEIVED: Mutex<RefCell<Option<Filler<'static>>>> = Mutex::new(RefCell::new(None));
 
 /// The interrupt of TIM2.
 const TIM2_INTERRUPT: i16 = 28;
@@ -118,12 +127,28 @@ fn supply_clocks() {
 
 /// Handles the interrupts of this file. False if `number` is not one of them.
 pub(crate) fn on_interrupt(number: i16) -> bool {
-    if number != TIM2_INTERRUPT {
-        return false;
+    match number {
+        TIM2_INTERRUPT => {
+            Timer::new(TIM2).clear_interrupt();
+            TICKS.fetch_add(1, Ordering::Relaxed);
+        }
+        USART1_INTERRUPT => receive(),
+        _ => return false,
     }
-    Timer::new(TIM2).clear_interrupt();
-    TICKS.fetch_add(1, Ordering::Relaxed);
     true
+}
+
+/// Takes the bytes that have arrived. Reading the data clears the interrupt, an overrun's too.
+fn receive() {
+    let mut serial = Serial::at();
+    cortex_m::interrupt::free(|section| {
+        let mut filler = RECEIVED.borrow(section).borrow_mut();
+        while let Some(byte) = serial.take() {
+            if let Some(filler) = filler.as_mut() {
+                filler.put(byte);
+            }
+        }
+    });
 }
 
 /// An LED.
@@ -175,6 +200,31 @@ impl Serial {
     const TRANSMIT_ENABLE: u32 = 1 << 3;
     const ENABLE: u32 = 1 << 13;
 
+    const RECEIVE_INTERRUPT_ENABLE: u32 = 1 << 5;
+
+    const fn at() -> Self {
+        Serial {
+            state: Register::new(USART1, 0x00),
+            data: Register::new(USART1, 0x04),
+        }
+    }
+
+    fn take(&mut self) -> Option<u8> {
+        // Bits 9 to 31 read as zero, and bit 8 too with eight data bits.
+        (self.state.read() & Self::RECEIVED != 0).then(|| self.data.read() as u8)
+    }
+
+    /// From here on an interrupt puts the bytes that arrive into `filler`; they can no longer be read from here.
+    pub fn listen(&mut self, filler: Filler<'static>) {
+        cortex_m::interrupt::free(|section| RECEIVED.borrow(section).replace(Some(filler)));
+        let enable = Self::RECEIVE_INTERRUPT_ENABLE;
+        Register::new(USART1, 0x0c).change(enable, enable);
+        // SAFETY: no critical section relies on this interrupt being masked.
+        unsafe { NVIC::unmask(ReceiveInterrupt) };
+        // A byte that came before has raised no interrupt, and the next ones wait behind it.
+        receive();
+    }
+
     fn start() -> Self {
         // PB6 and PB7 in their seventh alternate function.
         const ALTERNATE: u32 = 0b1010;
@@ -183,10 +233,7 @@ impl Serial {
         Register::new(USART1, 0x08).write(CLOCK_HZ / Self::BAUD_HZ);
         let control = Self::ENABLE | Self::TRANSMIT_ENABLE | Self::RECEIVE_ENABLE;
         Register::new(USART1, 0x0c).write(control);
-        Serial {
-            state: Register::new(USART1, 0x00),
-            data: Register::new(USART1, 0x04),
-        }
+        Self::at()
     }
 }
 
@@ -220,11 +267,8 @@ impl Read for Serial {
         while self.state.read() & Self::RECEIVED == 0 {}
         let mut count = 0;
         for byte in bytes {
-            if self.state.read() & Self::RECEIVED == 0 {
-                break;
-            }
-            // Bits 9 to 31 read as zero, and bit 8 too with eight data bits.
-            *byte = self.data.read() as u8;
+            let Some(received) = self.take() else { break };
+            *byte = received;
             count += 1;
         }
         Ok(count)
@@ -237,6 +281,7 @@ struct Timer {
     interrupts: Register,
     state: Register,
     events: Register,
+    count: Register,
     prescaler: Register,
     reload: Register,
 }
@@ -251,6 +296,7 @@ impl Timer {
             interrupts: Register::new(base, 0x0c),
             state: Register::new(base, 0x10),
             events: Register::new(base, 0x14),
+            count: Register::new(base, 0x24),
             prescaler: Register::new(base, 0x28),
             reload: Register::new(base, 0x2c),
         }
@@ -329,6 +375,23 @@ impl Tick for PeriodicTimer {
                 return passed;
             }
         }
+    }
+
+    fn elapsed_us(&self) -> u32 {
+        // The emulator's count goes on where the part's begins again.
+        let period = self.timer.reload.read().saturating_add(1);
+        (self.timer.count.read() % period) / TIMER_CLOCKS_A_MICROSECOND
+    }
+}
+
+/// The interrupt of USART1 as the interrupt controller wants it named.
+#[derive(Clone, Copy)]
+struct ReceiveInterrupt;
+
+// SAFETY: always the same number, which is that of USART1.
+unsafe impl cortex_m::interrupt::InterruptNumber for ReceiveInterrupt {
+    fn number(self) -> u16 {
+        USART1_INTERRUPT as u16
     }
 }
 

@@ -6,25 +6,25 @@ use super::wire::{PAYLOAD_BYTES, Reader};
 
 /// Goals in one frame at most.
 pub const MOST_GOALS: usize = 12;
-/// Set-points in one frame at most.
-pub const MOST_SET_POINTS: usize = 16;
+/// Actuators' targets in one frame at most.
+pub const MOST_TARGETS: usize = 16;
 
 /// Where an effector is to go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Goal {
-    /// The effector: a control point of the cage, counted from 0.
-    pub point: u16,
+    /// The effector, counted from 0 in the order of the bundle's solver.
+    pub effector: u16,
     /// The place, raw bits of the bundle's fixed-point format.
     pub place: [i32; 3],
 }
 
-/// Where an actuator is to go.
+/// Where an actuator is to go: within its rate, and no further than its bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SetPoint {
+pub struct Target {
     /// The channel, counted from 0.
     pub channel: u8,
-    /// The displacement from rest, raw bits of the bundle's fixed-point format.
-    pub displacement: i32,
+    /// The amplitude of the channel's mode, 30 fraction bits.
+    pub amplitude: i32,
 }
 
 /// A command.
@@ -33,7 +33,7 @@ pub enum Command {
     /// Effectors' goals; the others keep theirs.
     Goals(Vec<Goal, MOST_GOALS>),
     /// Actuators' targets; the others keep theirs.
-    Actuators(Vec<SetPoint, MOST_SET_POINTS>),
+    Actuators(Vec<Target, MOST_TARGETS>),
     /// Stay where you are.
     Hold,
     /// Nothing but a sign of life; telemetry answers, as it does on every tick.
@@ -46,8 +46,9 @@ pub enum Command {
         /// Ticks of silence.
         silence_ticks: u32,
     },
-    /// Back to rest, with the tick counted from 0. The one command that is accepted with any sequence number but the
-    /// last one's: with it a host that has come back begins anew.
+    /// Back to rest at once, with this tick counted as 0; what waits is forgotten, and its header's tick must be 0. The
+    /// one command that is accepted with any sequence number but the last one's: with it a host that has come back
+    /// begins anew.
     Restart,
 }
 
@@ -93,23 +94,20 @@ impl Command {
             Self::GOALS => {
                 let mut goals = Vec::new();
                 for _ in 0..reader.byte()? {
-                    let point = reader.half()?;
+                    let effector = reader.half()?;
                     let place = [reader.signed()?, reader.signed()?, reader.signed()?];
-                    goals.push(Goal { point, place }).ok()?;
+                    goals.push(Goal { effector, place }).ok()?;
                 }
                 Command::Goals(goals)
             }
             Self::ACTUATORS => {
-                let mut set_points = Vec::new();
+                let mut targets = Vec::new();
                 for _ in 0..reader.byte()? {
-                    let (channel, displacement) = (reader.byte()?, reader.signed()?);
-                    let set_point = SetPoint {
-                        channel,
-                        displacement,
-                    };
-                    set_points.push(set_point).ok()?;
+                    let (channel, amplitude) = (reader.byte()?, reader.signed()?);
+                    let target = Target { channel, amplitude };
+                    targets.push(target).ok()?;
                 }
-                Command::Actuators(set_points)
+                Command::Actuators(targets)
             }
             Self::HOLD => Command::Hold,
             Self::QUERY => Command::Query,
@@ -137,15 +135,15 @@ impl Command {
             Command::Goals(goals) => {
                 put(&[Self::GOALS, goals.len() as u8]);
                 for goal in goals {
-                    put(&goal.point.to_le_bytes());
+                    put(&goal.effector.to_le_bytes());
                     goal.place.iter().for_each(|bits| put(&bits.to_le_bytes()));
                 }
             }
-            Command::Actuators(set_points) => {
-                put(&[Self::ACTUATORS, set_points.len() as u8]);
-                for set_point in set_points {
-                    put(&[set_point.channel]);
-                    put(&set_point.displacement.to_le_bytes());
+            Command::Actuators(targets) => {
+                put(&[Self::ACTUATORS, targets.len() as u8]);
+                for target in targets {
+                    put(&[target.channel]);
+                    put(&target.amplitude.to_le_bytes());
                 }
             }
             Command::Hold => put(&[Self::HOLD]),

@@ -21,7 +21,7 @@ pub struct Faults {
     pub flood: u32,
     /// Bytes that the full ring lost.
     pub overrun: u32,
-    /// Accepted commands that name what the controller has not: a point, a channel, a tick that has passed.
+    /// Accepted commands that name what the controller has not: an effector, a channel, a tick that has passed.
     pub rejected: u32,
     /// How often the host was silent for too long.
     pub silence: u32,

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The bytes are those of `docs/protocol.md`. Everything here runs on the device and on the host alike: no
-//! allocation, no panic, a time that is bounded by [`BYTES_A_TICK`] and [`COMMANDS_A_TICK`].
+//! allocation, no panic, a time that is bounded by [`BYTES_A_TICK`] and [`FRAMES_A_TICK`].
 
 mod command;
 mod faults;
@@ -18,8 +18,8 @@ mod ring;
 mod telemetry;
 pub mod wire;
 
-pub use command::{Command, CommandError, Goal, Header, MOST_GOALS, MOST_SET_POINTS, SetPoint};
+pub use command::{Command, CommandError, Goal, Header, MOST_GOALS, MOST_TARGETS, Target};
 pub use faults::Faults;
-pub use receive::{BYTES_A_TICK, COMMANDS_A_TICK, Receiver};
+pub use receive::{BYTES_A_TICK, COMMANDS_A_TICK, FRAMES_A_TICK, Receiver};
 pub use ring::{Drain, Filler, RING_BYTES, Ring};
 pub use telemetry::{CHANNELS, TELEMETRY_BYTES, Telemetry};

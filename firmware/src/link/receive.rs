@@ -6,7 +6,10 @@ use super::wire::{self, ENCODED_BYTES, WireError};
 
 /// Bytes that are looked at in one tick.
 pub const BYTES_A_TICK: usize = 2048;
-/// Commands that are accepted in one tick; more are refused as a flood.
+/// Commands that arrive in one tick; more are refused as a flood. A host that sends ahead of time may have been late
+/// for a few ticks and then send what belongs to all of them.
+pub const FRAMES_A_TICK: usize = 32;
+/// Commands that take effect on one tick.
 pub const COMMANDS_A_TICK: usize = 8;
 
 /// The receiving end of the link.
@@ -55,14 +58,14 @@ impl Receiver {
         &self.faults
     }
 
-    /// Looks at what has arrived: at most [`BYTES_A_TICK`] bytes out of `next`, at most [`COMMANDS_A_TICK`] commands
+    /// Looks at what has arrived: at most [`BYTES_A_TICK`] bytes out of `next`, at most [`FRAMES_A_TICK`] commands
     /// handed to `accept`. `accept` returns false for a command that it has no room for, which counts as a flood.
     pub fn tick(
         &mut self,
         mut next: impl FnMut() -> Option<u8>,
         mut accept: impl FnMut(Header, Command) -> bool,
     ) {
-        let mut room = COMMANDS_A_TICK;
+        let mut room = FRAMES_A_TICK;
         for _ in 0..BYTES_A_TICK {
             let Some(byte) = next() else { break };
             if byte != 0 {

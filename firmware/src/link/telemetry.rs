@@ -18,7 +18,8 @@ pub struct Telemetry {
     pub tick: u32,
     /// The host's clock, as it was last told.
     pub host_clock_us: u32,
-    /// Bit 0: the pose is held. Bit 1: because the host is silent. Bit 2: the bundle has a volume.
+    /// Bit 0: the pose is held. Bit 1: because the host is silent. Bit 2: the bundle has a volume. Bit 3: a coordinate
+    /// did not fit. From bit 8: what the solver gave up.
     pub flags: u32,
     /// CRC-32 of the pose's raw bits, little-endian.
     pub pose_hash: u32,
@@ -38,8 +39,9 @@ pub struct Telemetry {
     pub accepted: u16,
     /// Their sequence numbers, in order; the rest is zero.
     pub sequences: [u16; COMMANDS_A_TICK],
-    /// What the actuators are set to, 12 bits each.
-    pub set_points: [u16; CHANNELS],
+    /// The set-points that the outputs hold in this tick, 12 bits each: those of the tick before, because outputs
+    /// change at the start of a tick.
+    pub outputs: [u16; CHANNELS],
 }
 
 impl Telemetry {
@@ -49,6 +51,11 @@ impl Telemetry {
     pub const SILENT: u32 = 2;
     /// Bit of [`flags`](Telemetry::flags): the volume is one.
     pub const HAS_VOLUME: u32 = 4;
+    /// Bit of [`flags`](Telemetry::flags): a coordinate of a control point or of the model did not fit and was clamped.
+    pub const SATURATED: u32 = 8;
+    /// The lowest bit of [`flags`](Telemetry::flags) that tells what the solver gave up: the bits of
+    /// `octruss::control::inverse::GaveUp` from here.
+    pub const GAVE_UP_SHIFT: u32 = 8;
 
     /// The payload of the record.
     #[must_use]
@@ -75,7 +82,7 @@ impl Telemetry {
             put(&word.to_le_bytes());
         }
         put(&u32::from(self.accepted).to_le_bytes());
-        for half in self.sequences.iter().chain(&self.set_points) {
+        for half in self.sequences.iter().chain(&self.outputs) {
             put(&half.to_le_bytes());
         }
         out
@@ -104,11 +111,9 @@ impl Telemetry {
         telemetry.faults = Faults::from_values(values);
         telemetry.accepted = u16::try_from(reader.word()?).ok()?;
         let Telemetry {
-            sequences,
-            set_points,
-            ..
+            sequences, outputs, ..
         } = &mut telemetry;
-        for half in sequences.iter_mut().chain(set_points) {
+        for half in sequences.iter_mut().chain(outputs) {
             *half = reader.half()?;
         }
         reader.0.is_empty().then_some(telemetry)

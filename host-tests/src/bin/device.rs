@@ -11,6 +11,7 @@ use octruss_host_tests::adaptive_count::{self, picture};
 use octruss_host_tests::performance::inverse::{self, Sources};
 use octruss_host_tests::performance::projection;
 use octruss_host_tests::performance::skin;
+use octruss_host_tests::qemu::controller;
 use octruss_host_tests::qemu::demo::{self, Example, Summary};
 use octruss_host_tests::qemu::holding;
 use octruss_host_tests::qemu::judge::{Subject, judge};
@@ -69,6 +70,19 @@ enum Job {
         /// The model
         #[arg(long)]
         model: PathBuf,
+    },
+    /// Drives the interactive controller through a motion with disturbances, silence, a host that goes away, wrong
+    /// frames, and replays it on another processor
+    Controller {
+        /// Where controller.oct is, and where the recorded run goes
+        #[arg(long)]
+        directory: PathBuf,
+        /// The motion that the effectors follow
+        #[arg(long)]
+        motion: PathBuf,
+        /// How many frames are sent that must be refused
+        #[arg(long, default_value_t = 500)]
+        wrong_frames: u32,
     },
     /// Lets the finger follow goals with its volume held and without, and draws both
     Holding {
@@ -133,6 +147,11 @@ fn main() -> ExitCode {
             cage,
             model,
         } => play(directory, cage, model),
+        Job::Controller {
+            directory,
+            motion,
+            wrong_frames,
+        } => drive(&directory, &motion, wrong_frames),
         Job::Holding { directory, models } => hold(&directory, models),
         Job::Adaptive { models, output } => compare_adaptive(&models, &output),
         Job::Goals { directory, models } => goals(&directory, models),
@@ -213,6 +232,33 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
     };
     println!("\n{summary}");
     Ok(summary.mismatches() == 0)
+}
+
+/// Prints what every run came to.
+fn drive(directory: &Path, motion: &Path, wrong_frames: u32) -> Result<bool, demo::Failure> {
+    println!("The controller is driven over the serial port.");
+    let mut runs = Vec::new();
+    controller::play(directory, motion, wrong_frames, &mut |run| {
+        println!("\n{}\n", run.title);
+        for line in run.report.words("mm").lines() {
+            println!("  {line}");
+        }
+        let count = run.not_reference;
+        println!("  reference   {count} records differ from the reference");
+        for words in run.first.iter().chain(&run.failures) {
+            println!("  FAILED      {words}");
+        }
+        runs.push(run);
+    })?;
+    let holds = runs.iter().all(controller::Driven::holds);
+    let count: u64 = runs.iter().map(|run| run.report.compared).sum();
+    let mismatches: u64 = runs
+        .iter()
+        .map(|run| run.report.mismatches + run.not_reference)
+        .sum();
+    let missed = runs.iter().map(|run| run.missed).max().unwrap_or(0);
+    println!("\n{count} ticks, {mismatches} mismatches, {missed} ticks missed\n");
+    Ok(holds)
 }
 
 fn compare_skins(directory: &Path, mesh: &Path, motion: &Path) -> Result<bool, demo::Failure> {

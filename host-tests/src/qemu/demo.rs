@@ -79,7 +79,7 @@ impl Example {
 }
 
 /// The rows of a bundle as the reference wants them, weights in 30 fraction bits.
-fn reference_table(rows: &octruss::deform::Table<'_, i32>) -> Result<Table, Failure> {
+pub(crate) fn reference_table(rows: &octruss::deform::Table<'_, i32>) -> Result<Table, Failure> {
     let shift = 30 - rows.weight_bits();
     let mut table = Table {
         offsets: vec![0],
@@ -97,7 +97,7 @@ fn reference_table(rows: &octruss::deform::Table<'_, i32>) -> Result<Table, Fail
 
 /// The rows at rest, out of what their sums start from:
 /// `rest * 2^q + 2^(q - 1) = start + sum of weight * rest cage`.
-fn rest_model(
+pub(crate) fn rest_model(
     rows: &octruss::deform::Table<'_, i32>,
     rest_cage: &[[i32; 3]],
 ) -> Result<Vec<[i32; 3]>, Failure> {

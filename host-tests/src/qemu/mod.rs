@@ -20,6 +20,7 @@
 //! ```
 
 pub mod conformance;
+pub mod controller;
 pub mod demo;
 mod error;
 pub mod holding;
@@ -116,6 +117,7 @@ pub struct Run<'a> {
     shift: Option<u8>,
     time_limit: Duration,
     serial_file: Option<PathBuf>,
+    serial_tcp: Option<u16>,
     capture_serial: bool,
     on_message: OnMessage<'a>,
 }
@@ -135,6 +137,7 @@ impl<'a> Run<'a> {
             shift: None,
             time_limit: Duration::from_secs(60),
             serial_file: None,
+            serial_tcp: None,
             capture_serial: false,
             on_message: Box::new(|_| {}),
         }
@@ -191,6 +194,44 @@ impl<'a> Run<'a> {
         self
     }
 
+    /// The first serial port is a TCP port of this machine; the emulator waits until somebody connects to it.
+    #[must_use]
+    pub fn serial_tcp(mut self, port: u16) -> Self {
+        self.serial_tcp = Some(port);
+        self
+    }
+
+    /// The emulator's clock: nothing, or one that follows the instructions. `keeps_pace` lets time pass while the processor
+    /// waits, so that a second there is never shorter than one here.
+    fn clock(&self, keeps_pace: bool) -> Vec<OsString> {
+        let Some(shift) = self.shift else {
+            return Vec::new();
+        };
+        let waits = if keeps_pace { "" } else { ",sleep=off" };
+        vec!["-icount".into(), format!("shift={shift}{waits}").into()]
+    }
+
+    /// Starts an image that has no end, its first serial port at [`Run::serial_tcp`].
+    ///
+    /// # Errors
+    ///
+    /// If the emulator cannot be started.
+    pub fn start(mut self) -> Result<Running, Error> {
+        let directory = self.directory.take().unwrap_or_else(|| PathBuf::from("."));
+        let image = absolute(&self.image)?;
+        let table = log::read_table(&image)?;
+        let mut port = OsString::from("null");
+        if let Some(number) = self.serial_tcp {
+            port = format!("tcp:127.0.0.1:{number},server=on,wait=on").into();
+        }
+        let emulator = Emulator::start(
+            &self.emulator,
+            &arguments(self.machine, &image, &self.clock(true), &port),
+            &directory,
+        )?;
+        Ok(Running { emulator, table })
+    }
+
     /// Runs the image to its end.
     ///
     /// # Errors
@@ -209,7 +250,12 @@ impl<'a> Run<'a> {
         let started = Instant::now();
         let mut emulator = Emulator::start(
             &self.emulator,
-            &arguments(self.machine, &image, self.shift, serial.as_deref()),
+            &arguments(
+                self.machine,
+                &image,
+                &self.clock(false),
+                &file_port(serial.as_deref()),
+            ),
             &directory,
         )?;
         let mut decoder = log::Decoder::new(&table);
@@ -247,6 +293,42 @@ impl<'a> Run<'a> {
     }
 }
 
+/// An image that runs until it is stopped. Dropping it stops it.
+pub struct Running {
+    emulator: Emulator,
+    table: defmt_decoder::Table,
+}
+
+impl Running {
+    /// Stops the image and returns what it said.
+    ///
+    /// # Errors
+    ///
+    /// If it has ended by itself.
+    pub fn stop(mut self) -> Result<Log, Error> {
+        let ended = self.emulator.child.try_wait().map_err(Error::NotStarted)?;
+        if ended.is_none() {
+            self.emulator.child.kill().map_err(Error::NotStarted)?;
+        }
+        let mut decoder = log::Decoder::new(&self.table);
+        let deadline = Instant::now() + Duration::from_secs(10);
+        let listened = self.emulator.listen(deadline, |bytes| {
+            decoder.receive(bytes, &mut |_: &Message| {})
+        });
+        let log = decoder.log;
+        let Some(status) = ended else {
+            // The kill may have cut a message.
+            return Ok(log);
+        };
+        listened?;
+        judge(status, String::new(), &log)?;
+        Err(Error::NoEndMarker {
+            emulator: "the image was to run on and has ended".to_owned(),
+            log: log.tail(),
+        })
+    }
+}
+
 /// Decides whether a run that has ended has passed.
 fn judge(status: ExitStatus, emulator: String, log: &Log) -> Result<(), Error> {
     match status.code() {
@@ -279,12 +361,7 @@ fn signal_of(_status: ExitStatus) -> Option<i32> {
 }
 
 /// The emulator's command line.
-fn arguments(
-    machine: Machine,
-    image: &Path,
-    shift: Option<u8>,
-    serial: Option<&Path>,
-) -> Vec<OsString> {
+fn arguments(machine: Machine, image: &Path, clock: &[OsString], port: &OsStr) -> Vec<OsString> {
     let mut arguments: Vec<OsString> = [
         "-machine",
         machine.name(),
@@ -301,17 +378,25 @@ fn arguments(
     ]
     .map(OsString::from)
     .to_vec();
-    if let Some(shift) = shift {
-        // While the processor waits for an interrupt, time jumps instead of passing.
-        arguments.extend(["-icount".into(), format!("shift={shift},sleep=off").into()]);
-    }
-    let mut port = OsString::from("null");
-    if let Some(file) = serial {
-        port = OsString::from("file:");
-        port.push(file);
-    }
-    arguments.extend(["-serial".into(), port, "-kernel".into(), image.into()]);
+    // While the processor waits for an interrupt, time jumps instead of passing, unless the clock keeps pace.
+    arguments.extend_from_slice(clock);
+    arguments.extend([
+        "-serial".into(),
+        port.into(),
+        "-kernel".into(),
+        image.into(),
+    ]);
     arguments
+}
+
+/// A serial port that goes to a file, or nowhere.
+fn file_port(file: Option<&Path>) -> OsString {
+    let Some(file) = file else {
+        return "null".into();
+    };
+    let mut port = OsString::from("file:");
+    port.push(file);
+    port
 }
 
 /// The emulator's process, its output read by threads. Dropping it stops it.
