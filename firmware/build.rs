@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The images that log through `defmt`. `apply` does not: it holds the apply path alone.
-const LOGGING_IMAGES: [&str; 10] = [
+const LOGGING_IMAGES: [&str; 11] = [
     "bench",
     "conformance",
     "controller",
@@ -18,6 +18,7 @@ const LOGGING_IMAGES: [&str; 10] = [
     "faults",
     "holding",
     "inverse",
+    "palm",
     "projection",
     "skin",
     "volume",
@@ -89,7 +90,8 @@ fn find_demo(workspace: &Path) {
         || workspace.join("target").join("demo"),
         |directory| workspace.join(directory),
     );
-    let files = ["finger.oct", "finger.poses", "controller.oct"].map(|name| directory.join(name));
+    let files = ["finger.oct", "finger.poses", "controller.oct", "palm.oct"]
+        .map(|name| directory.join(name));
     for file in &files {
         println!("cargo::rerun-if-changed={}", file.display());
     }

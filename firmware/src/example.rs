@@ -1,21 +1,20 @@
 //! The baked example: the bundle and the motion that `cargo xtask demo` bakes, in flash.
 
-/// Includes the bundle of the interactive controller and evaluates to its bytes, aligned to 8 bytes.
+/// Includes a baked bundle, such as `"/controller.oct"`, and evaluates to its bytes, aligned to 8 bytes.
 ///
 /// A macro, for the reason of [`include_example`].
 #[macro_export]
-macro_rules! include_controller {
-    () => {{
+macro_rules! include_baked {
+    ($file:literal) => {{
         #[cfg(not(demo_is_baked))]
         compile_error!(
-            "the controller's bundle is not baked: run `cargo xtask demo`, or set OCTRUSS_DEMO_DIR to the directory \
-             that holds controller.oct"
+            "the bundles are not baked: run `cargo xtask demo`, or set OCTRUSS_DEMO_DIR to the directory that holds \
+             finger.oct, finger.poses, controller.oct and palm.oct"
         );
         #[cfg(not(demo_is_baked))]
         let bundle: &[u8] = &[];
         #[cfg(demo_is_baked)]
-        let bundle: &[u8] =
-            octruss::include_bundle!(concat!(env!("OCTRUSS_DEMO_DIR"), "/controller.oct"));
+        let bundle: &[u8] = octruss::include_bundle!(concat!(env!("OCTRUSS_DEMO_DIR"), $file));
         bundle
     }};
 }

@@ -24,11 +24,13 @@
 
 pub mod actuators;
 pub mod cases;
+pub mod checksum;
 pub mod controller;
 mod example;
 pub mod exit;
 pub mod frame;
 pub mod link;
+pub mod palm;
 pub mod player;
 pub mod tick;
 

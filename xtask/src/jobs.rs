@@ -35,7 +35,8 @@ pub fn demo() -> Result<(), Failure> {
     bake_example()?;
     build_images()?;
     play_example()?;
-    drive_controller(Build::Debug, WRONG_FRAMES)
+    drive_controller(Build::Debug, WRONG_FRAMES)?;
+    blow_palm()
 }
 
 /// Runs the tests on the host and on the emulated processors.
@@ -97,6 +98,7 @@ pub fn ci() -> Result<(), Failure> {
     steps.step("the controller over its serial port", || {
         drive_controller(Build::Debug, WRONG_FRAMES)
     })?;
+    steps.step("the palm in the wind", blow_palm)?;
     steps.step("lints", || {
         // The default members are what builds for the host; the firmware's library does too.
         lint(&["--all-targets"])?;
@@ -391,6 +393,12 @@ fn bake_example() -> Result<(), Failure> {
         .args([directory.join("controller.oct")])
         .run()?;
     octruss()
+        .args(["bake", "models/palm.msh", "--model", "models/palm.obj"])
+        .args(["--scheme", SCHEME, "--levels", LEVELS, "--unit", "cm"])
+        .args(["--springs", "models/palm.springs", "--output"])
+        .args([directory.join("palm.oct")])
+        .run()?;
+    octruss()
         .args(["poses", CAGE, "--motion", MOTION, "--bundle"])
         .args([&bundle])
         .args(["--output"])
@@ -411,13 +419,15 @@ fn build_images() -> Result<(), Failure> {
         "demo",
         "--bin",
         "faults",
+        "--bin",
+        "palm",
     ];
     build_images_of(IMAGE_TARGET, &board)?;
     let images = workspace::images()?;
     let aside = images.join("netduinoplus2");
     std::fs::create_dir_all(&aside)
         .map_err(|error| format!("cannot make {}: {error}", aside.display()))?;
-    for image in ["controller", "demo", "faults"] {
+    for image in ["controller", "demo", "faults", "palm"] {
         std::fs::copy(images.join(image), aside.join(image))
             .map_err(|error| format!("cannot copy the image {image}: {error}"))?;
     }
@@ -456,6 +466,15 @@ fn play_example() -> Result<(), Failure> {
             model_file,
         ],
     )
+}
+
+/// Plays the palm that has been baked and built.
+fn blow_palm() -> Result<(), Failure> {
+    let directory = workspace::example()?;
+    let picture = directory.join("palm.png");
+    let job = ["palm", "--directory", path(&directory)?];
+    let picture = ["--picture", path(&picture)?];
+    device(Build::Debug, &[&job[..], &picture].concat())
 }
 
 /// Drives the controller that has been baked and built.

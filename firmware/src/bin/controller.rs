@@ -23,7 +23,7 @@ use octruss_firmware::controller::{
     BoardState, Controller, Memory, Motion, Parts, Queue, SET_POINT_MOST,
 };
 use octruss_firmware::exit::{self, Ending, figure};
-use octruss_firmware::include_controller;
+use octruss_firmware::include_baked;
 use octruss_firmware::link::wire::{self, ENCODED_BYTES};
 use octruss_firmware::link::{CHANNELS, Ring};
 use octruss_firmware::player::ROWS_A_PIECE;
@@ -44,7 +44,7 @@ fn main() -> ! {
     static mut PIECE: [[i32; 3]; ROWS_A_PIECE] = [[0; 3]; ROWS_A_PIECE];
     static mut POSE: [[i32; 3]; CONTROL_POINTS] = [[0; 3]; CONTROL_POINTS];
 
-    let bundle = match Bundle::new_checked(include_controller!()) {
+    let bundle = match Bundle::new_checked(include_baked!("/controller.oct")) {
         Ok(bundle) => bundle,
         Err(error) => refuse(&error),
     };

@@ -1,17 +1,12 @@
 //! What moves: goals or targets in, a pose and set-points out, the same bits for the same commands on the same ticks.
 
-use crc::{CRC_32_ISO_HDLC, Crc, Table};
 use octruss::control::inverse::{InverseState, MOST_ACTUATORS, MOST_EFFECTORS, VolumeGoal};
-use zerocopy::IntoBytes;
 
 use super::parts::Parts;
 use super::set_point::set_point;
+use crate::checksum;
 use crate::link::{CHANNELS, Command};
 use crate::player::ROWS_A_PIECE;
-
-/// The checksum of poses and models, CRC-32/ISO-HDLC, with tables for sixteen bytes at once: a whole model is summed up
-/// on every tick.
-static SUM: Crc<u32, Table<16>> = Crc::<u32, Table<16>>::new(&CRC_32_ISO_HDLC);
 
 const _: () = assert!(
     CHANNELS == MOST_ACTUATORS,
@@ -249,23 +244,16 @@ impl<'a, 'm> Motion<'a, 'm> {
         let pose = &mut *self.memory.pose;
         let posed = self.parts.actuation.pose(self.state.amplitudes(), pose);
         moved.saturated = posed.unwrap_or_default();
-        moved.pose_hash = SUM.checksum(pose.as_bytes());
+        moved.pose_hash = checksum::of_points(pose);
     }
 
     fn deform(&mut self, moved: &mut Moved) {
         let table = &self.parts.table;
         let Memory { pose, piece } = &mut self.memory;
-        let mut digest = SUM.digest();
-        for start in (0..table.rows()).step_by(ROWS_A_PIECE) {
-            let end = table.rows().min(start + ROWS_A_PIECE);
-            let Some(piece) = piece.get_mut(..end - start) else {
-                continue;
-            };
-            let saturated = table.apply(start..end, pose, piece).unwrap_or_default();
-            moved.saturated = moved.saturated.saturating_add(saturated);
-            digest.update(piece.as_bytes());
-        }
-        moved.skin_hash = digest.finalize();
+        // The table is that of the pose: `Parts::open` saw to it.
+        let (sum, saturated) = checksum::of_model(table, pose, piece).unwrap_or_default();
+        moved.skin_hash = sum;
+        moved.saturated = moved.saturated.saturating_add(saturated);
         let rows = self.parts.actuation.effector_rows();
         for (&row, goal) in rows.iter().zip(&self.goals) {
             let (row, mut place) = (row as usize, [[0; 3]]);

@@ -15,6 +15,7 @@ use octruss_host_tests::qemu::controller;
 use octruss_host_tests::qemu::demo::{self, Example, Summary};
 use octruss_host_tests::qemu::holding;
 use octruss_host_tests::qemu::judge::{Subject, judge};
+use octruss_host_tests::qemu::palm;
 use octruss_host_tests::qemu::{Machine, Run, image};
 
 /// The processors whose instructions are counted.
@@ -102,6 +103,24 @@ enum Job {
         #[arg(long, default_value = "docs/adaptive-triangles.png")]
         output: PathBuf,
     },
+    /// Plays a minute of wind in a palm's leaves, holds every second against host and reference, and draws it
+    Palm {
+        /// Where palm.oct is
+        #[arg(long)]
+        directory: PathBuf,
+        /// The palm's cage
+        #[arg(long, default_value = "models/palm.msh")]
+        cage: PathBuf,
+        /// The palm's model
+        #[arg(long, default_value = "models/palm.obj")]
+        model: PathBuf,
+        /// The picture
+        #[arg(long)]
+        picture: PathBuf,
+        /// For how many seconds the reference is asked too
+        #[arg(long, default_value_t = 8)]
+        reference_seconds: u32,
+    },
     /// Counts the instructions of ticks of the goals' solver
     Goals {
         /// Where the files of the run go
@@ -152,6 +171,13 @@ fn main() -> ExitCode {
             motion,
             wrong_frames,
         } => drive(&directory, &motion, wrong_frames),
+        Job::Palm {
+            directory,
+            cage,
+            model,
+            picture,
+            reference_seconds,
+        } => blow(&directory, &cage, &model, &picture, reference_seconds),
         Job::Holding { directory, models } => hold(&directory, models),
         Job::Adaptive { models, output } => compare_adaptive(&models, &output),
         Job::Goals { directory, models } => goals(&directory, models),
@@ -232,6 +258,39 @@ fn play(directory: PathBuf, cage: PathBuf, model: PathBuf) -> Result<bool, demo:
     };
     println!("\n{summary}");
     Ok(summary.mismatches() == 0)
+}
+
+/// Plays the palm on every board.
+fn blow(
+    directory: &Path,
+    cage: &Path,
+    model: &Path,
+    picture: &Path,
+    reference_seconds: u32,
+) -> Result<bool, demo::Failure> {
+    println!("A palm in the wind, for a minute of simulated time.");
+    let minute = palm::minute(directory, reference_seconds)?;
+    let count = minute.reference_seconds;
+    let differing = minute.not_reference;
+    println!("  reference: {differing} of {count} seconds differ from the host's");
+    let mut holds = differing == 0 && minute.clamped == 0;
+    for machine in PLAYED {
+        let found = palm::play(machine, directory, &minute)?;
+        println!(
+            "  {} ({}): {} of {} hashes differ, {} ticks missed, {} coordinates clamped, at most {} us a tick",
+            machine.processor(),
+            machine.name(),
+            found.differing,
+            found.hashes,
+            found.missed,
+            found.clamped,
+            found.busy_us
+        );
+        holds &= found.differing == 0 && found.missed == 0 && found.clamped == 0;
+    }
+    palm::draw(directory, cage, model, picture)?;
+    println!("  picture: {}", picture.display());
+    Ok(holds)
 }
 
 /// Prints what every run came to.

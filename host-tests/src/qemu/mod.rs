@@ -26,6 +26,7 @@ mod error;
 pub mod holding;
 pub mod judge;
 mod log;
+pub mod palm;
 
 use std::ffi::{OsStr, OsString};
 use std::io::{ErrorKind, Read};
