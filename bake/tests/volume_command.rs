@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use octruss_bake::bundle::BundleBytes;
+use predicates::prelude::PredicateBooleanExt as _;
 use predicates::str::contains;
 use std::fs;
 use std::path::Path;
@@ -175,7 +176,7 @@ fn forms_of_neighbourhoods_are_printed() {
         ("sqrt3 --valence 5 --exact", "leave --exact out"),
         ("sqrt3 --around 3,3,4", "takes no face of 4 corners"),
         ("tri-quad --around 3,3,5", "takes no face of 5 corners"),
-        ("butterfly --valence 2", "at least 3"),
+        ("butterfly --valence 2", "from 3 to 64"),
         ("loop --around 3,3,3", "give --valence"),
         ("tri-quad", "--valence"),
     ] {
@@ -377,4 +378,84 @@ fn surfaces_are_baked_with_their_volume() {
     .assert()
     .code(1)
     .stderr(contains("a surface has no labelled regions"));
+}
+
+/// A crease is the same whether the control mesh brings it as a tag or a feature file names it, and it is no smooth edge.
+#[test]
+fn crease_tags_are_heeded() {
+    let directory = tempdir().expect("a directory");
+    let file = |name: &str| directory.path().join(name);
+    let plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    fs::write(file("plain.obj"), plain).expect("a file");
+    let tagged = format!("{plain}t crease 2/1/0 0 1 10\n");
+    fs::write(file("tagged.obj"), tagged).expect("a file");
+    fs::write(file("features.txt"), "crease 0 1\n").expect("a file");
+    fs::write(file("faces.txt"), "crease-face 0 1 2\n").expect("a file");
+    let volume = |arguments: &str| {
+        let command = &mut octruss(directory.path(), &format!("volume {arguments} --json"));
+        let out = command.assert().success().get_output().stdout.clone();
+        number(&out, "volume")
+    };
+    let smooth = volume("plain.obj --scheme loop");
+    let named = volume("plain.obj --scheme loop --features features.txt");
+    let own = volume("tagged.obj --scheme loop");
+    assert!(named > 1.2 * smooth, "{named} {smooth}");
+    assert_eq!(own.to_bits(), named.to_bits());
+    octruss(
+        directory.path(),
+        "volume plain.obj --scheme loop --features faces.txt",
+    )
+    .assert()
+    .failure()
+    .stderr(contains("for solids"));
+}
+
+/// Every format of control meshes is read; the mesh that reaches a target is written as `.obj` and as nothing else.
+#[test]
+fn control_meshes_come_in_every_format() {
+    let directory = tempdir().expect("a directory");
+    let file = |name: &str| directory.path().join(name);
+    let off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    fs::write(file("mesh.off"), off).expect("a file");
+    let out = octruss(directory.path(), "volume mesh.off --scheme loop --json")
+        .assert()
+        .success()
+        .get_output()
+        .stdout
+        .clone();
+    // The surface lies within the tetrahedron.
+    let volume = number(&out, "volume");
+    assert!(volume > 0.0 && volume < 1.0 / 6.0, "{volume}");
+    octruss(
+        directory.path(),
+        "volume mesh.off --scheme loop --target 1 -o out.off",
+    )
+    .assert()
+    .failure()
+    .stderr(contains(".obj"));
+    assert!(!file("out.off").exists());
+}
+
+#[test]
+fn a_valence_without_a_form_is_named_with_the_limits() {
+    let directory = tempdir().expect("a directory");
+    let count = 70;
+    let mut text = String::from("v 0 0 1\nv 0 0 -1\n");
+    for k in 0..count {
+        let angle = std::f64::consts::TAU * f64::from(k) / f64::from(count);
+        text += &format!("v {} {} 0\n", angle.cos(), angle.sin());
+    }
+    for k in 0..count {
+        let (a, b) = (3 + k, 3 + (k + 1) % count);
+        text += &format!("f 1 {a} {b}\nf 2 {b} {a}\n");
+    }
+    fs::write(directory.path().join("wheel.obj"), text).expect("a file");
+    octruss(directory.path(), "volume wheel.obj --scheme loop")
+        .assert()
+        .failure()
+        .stderr(
+            contains("wheel.obj")
+                .and(contains("valence 70"))
+                .and(contains("3 to 64")),
+        );
 }

@@ -18,14 +18,14 @@ use std::path::{Path, PathBuf};
 
 /// Prints the exact volume that a smooth surface encloses
 ///
-/// The mesh is the control mesh of a subdivision surface (.obj), of any genus, or a cage (.msh,
+/// The mesh is the control mesh of a subdivision surface (.obj with its crease tags, .off, .ply, .stl), of any genus, or a cage (.msh,
 /// .vtu), whose boundary is meant. It must be closed, a manifold, and consistently oriented; the volume is
 /// positive if faces run counter-clockwise seen from outside. Where no exact form is known (creases and
 /// corners) the volume of refined polyhedra is extrapolated, and an error estimate is printed; so are
 /// centroid and inertia of the schemes tri-quad, sqrt3 and the butterflies, whose volume is exact.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The control mesh (.obj) or cage (Gmsh .msh, VTK .vtu)
+    /// The control mesh (.obj, .off, .ply, .stl) or cage (Gmsh .msh, VTK .vtu)
     mesh: PathBuf,
     /// The subdivision scheme; for a cage loop, loop-warren, or tri-quad (mixed cages)
     #[arg(long, value_enum)]
@@ -114,20 +114,18 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     print_figures(&figures, arguments.json, || words(&figures))
 }
 
+/// The formats of control meshes; others are those of cages.
+const SURFACES: [&str; 4] = ["obj", "off", "ply", "stl"];
+
 fn read_input(arguments: &Arguments) -> Result<Input> {
     let of_mesh = |error: Error| error.in_file(&arguments.mesh);
-    if read::extension(&arguments.mesh) == "obj" {
-        let model = read::model(&arguments.mesh)?;
-        let mut features = Features::default();
-        if let Some(file) = &arguments.features {
-            features = read::features::read(&read::bytes(file)?, model.points.len())
-                .map_err(|error| error.in_file(file))?;
-        }
-        let surface = Enclosure::new(&model.faces, &features).map_err(of_mesh)?;
+    if SURFACES.contains(&read::extension(&arguments.mesh).as_str()) {
+        let mesh = read::surface_with_features(&arguments.mesh, arguments.features.as_deref())?;
+        show_notes(&mesh.notes);
         return Ok(Input {
-            points: model.points.clone(),
-            surface,
-            model: Some(model),
+            surface: Enclosure::new(&mesh.faces, &mesh.features).map_err(of_mesh)?,
+            points: mesh.points,
+            model: Some(read::model(&arguments.mesh)?),
         });
     }
     let mesh = read::solid_with_features(&arguments.mesh, arguments.features.as_deref())?;
@@ -258,9 +256,13 @@ fn reach(arguments: &Arguments, input: &Input, target: f64, output: &Path) -> Re
     let Some(model) = &input.model else {
         return Err(
             Error::new("--target moves a control mesh, and this is a cage")
-                .advise("give the control mesh as .obj"),
+                .advise("give the control mesh as .obj, .off, .ply or .stl"),
         );
     };
+    if read::extension(output) != "obj" {
+        return Err(Error::new(format!("{} is no .obj file", output.display()))
+            .advise("the control mesh is written as .obj"));
+    }
     let limit = input.surface.limit(arguments.scheme)?;
     let own = input.surface.own(&input.points);
     let reached = limit.enclosing(&own, target).map_err(of_form)?;

@@ -1,5 +1,6 @@
 //! Why a volume or a form cannot be computed.
 
+use super::MAX_VALENCE;
 use std::fmt;
 
 /// Why a volume or a form cannot be computed. Vertices and faces are counted from 0.
@@ -168,7 +169,7 @@ impl fmt::Display for FormError {
             Self::Valence { valence } => {
                 write!(
                     f,
-                    "there is no form of valence {valence}: it must be at least 3"
+                    "there is no form of valence {valence}: it must be from 3 to {MAX_VALENCE}"
                 )
             }
             Self::TooManyPoints { points } => write!(
