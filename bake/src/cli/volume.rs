@@ -5,7 +5,7 @@ use octruss_bake::error::{Error, Result};
 use octruss_bake::forms::solid::Enclosure;
 use octruss_bake::forms::surface::centred;
 use octruss_bake::forms::{DeviceForm, FormError, Moments};
-use octruss_bake::mesh::{Features, Point};
+use octruss_bake::mesh::Point;
 use octruss_bake::picture::{Frame, Scene, Sheet, coloured_sheet};
 use octruss_bake::read::{self, obj::Model};
 use octruss_bake::refine::Level;
