@@ -3,6 +3,9 @@
 mod forms_support;
 
 use forms_support::{Shape, cubes};
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use num_traits::{Signed as _, ToPrimitive as _, Zero as _};
 use octruss::enclosed::{EnclosedError, VolumeForm, VolumeModes};
 use octruss_bake::forms::solid::Enclosure;
 use octruss_bake::forms::{
@@ -10,6 +13,8 @@ use octruss_bake::forms::{
 };
 use octruss_bake::mesh::Features;
 use octruss_bake::surface::SurfaceScheme;
+use rand::{RngExt as _, SeedableRng as _};
+use rand_chacha::ChaCha8Rng;
 use zerocopy::IntoBytes;
 
 const BITS: u32 = 20;
@@ -106,6 +111,79 @@ fn the_device_keeps_its_bound() {
         }
     }
     println!("greatest error of the volume, relative: {worst:e}");
+}
+
+/// The exact volume of a form at a pose: its coefficients are double-precision numbers, so everything is rational.
+fn exact_volume(form: &ControlForm, pose: &[[i32; 3]]) -> BigRational {
+    let at = |place: usize| pose[form.points[place]].map(BigInt::from);
+    let count = form.points.len();
+    let mut sum = BigRational::zero();
+    for i in 0..count {
+        for j in i + 1..count {
+            for k in j + 1..count {
+                let coefficient = form.form.get(i, j, k);
+                if coefficient != 0.0 {
+                    let [a, b, c] = [at(i), at(j), at(k)];
+                    let minor = |p: usize, q: usize| &b[p] * &c[q] - &b[q] * &c[p];
+                    let determinant =
+                        &a[0] * minor(1, 2) + &a[1] * minor(2, 0) + &a[2] * minor(0, 1);
+                    let exact = BigRational::from_float(coefficient).unwrap();
+                    sum += exact * BigRational::from(determinant);
+                }
+            }
+        }
+    }
+    sum
+}
+
+/// The bound holds for poses of the whole range of coordinates, its ends included, against exact rational numbers.
+#[test]
+fn the_bound_holds_at_the_ends_of_the_range() {
+    let shape = shape(1);
+    // A rest pose that fills the range but for a tenth.
+    let mut rest = bits(&shape);
+    let greatest = rest
+        .as_flattened()
+        .iter()
+        .map(|own| own.unsigned_abs())
+        .max();
+    let wider = i32::MAX.unsigned_abs() / 10 * 9 / greatest.unwrap();
+    let wider = i32::try_from(wider).unwrap();
+    rest.as_flattened_mut()
+        .iter_mut()
+        .for_each(|own| *own *= wider);
+    let form = ControlForm::of_surface(&surface(&shape)).unwrap();
+    let device = DeviceForm::new(&form, &rest).unwrap();
+    let view = VolumeForm::new_checked(device.parts(), rest.len()).unwrap();
+    let mut workspace = vec![[0; 3]; view.workspace_length()];
+    let mut rng = ChaCha8Rng::seed_from_u64(8);
+    let (mut clamped, mut worst) = (0, 0.0_f64);
+    for number in 0..60 {
+        // All at the ends; the rest pose, some of it pushed to the ends; anything.
+        let mut pose = rest.clone();
+        for coordinate in pose.as_flattened_mut() {
+            *coordinate = match number % 3 {
+                0 if rng.random() => i32::MIN,
+                0 => i32::MAX,
+                1 => coordinate.saturating_add(rng.random::<i32>() / 4),
+                _ => rng.random(),
+            };
+        }
+        let got = view.volume(&pose, &mut workspace).unwrap();
+        if got.saturated != 0 {
+            clamped += 1;
+            continue;
+        }
+        let unit = BigRational::from_float(device.volume_unit()).unwrap();
+        let own = BigRational::from(BigInt::from(got.volume)) * unit;
+        let error = (own - exact_volume(&form, &pose)).abs();
+        let bound = device.volume_bound(device.reach(&pose));
+        let part = error.to_f64().unwrap() / bound;
+        assert!(part <= 1.0, "pose {number}: {part} of the bound");
+        worst = worst.max(part);
+    }
+    println!("{clamped} of 60 poses were clamped; at most {worst:.2} of the bound");
+    assert!(clamped < 40);
 }
 
 /// A section gives the parts back, and is refused if a byte is missing, too many or misplaced.
