@@ -186,6 +186,62 @@ fn the_bound_holds_at_the_ends_of_the_range() {
     assert!(clamped < 40);
 }
 
+/// The bound of the gradient likewise. The volume is affine in every coordinate, so exact differences are derivatives.
+#[test]
+fn the_gradients_bound_holds_at_the_ends_of_the_range() {
+    let shape = shape(1);
+    let mut rest = bits(&shape);
+    rest.as_flattened_mut().iter_mut().for_each(|own| *own *= 4);
+    let form = ControlForm::of_surface(&surface(&shape)).unwrap();
+    let device = DeviceForm::new(&form, &rest).unwrap();
+    let view = VolumeForm::new_checked(device.parts(), rest.len()).unwrap();
+    let mut workspace = vec![[0; 3]; view.workspace_length()];
+    let mut gradient = vec![[0; 3]; view.points().len()];
+    let unit = BigRational::from_float(device.gradient_unit()).unwrap();
+    let mut rng = ChaCha8Rng::seed_from_u64(9);
+    let mut worst = [0.0_f64; 2];
+    for number in 0..6 {
+        let mut pose = rest.clone();
+        for coordinate in pose.as_flattened_mut() {
+            *coordinate = match number % 3 {
+                0 if rng.random() => i32::MIN,
+                0 => i32::MAX - 1,
+                1 => *coordinate,
+                _ => rng.random::<i32>() / 2,
+            };
+        }
+        let got = view
+            .volume_and_gradient(&pose, &mut workspace, &mut gradient)
+            .unwrap();
+        let bound = device.gradient_bound(device.reach(&pose));
+        let start = exact_volume(&form, &pose);
+        for (place, (point, slope)) in view.points().iter().zip(&gradient).enumerate() {
+            for (axis, own) in slope.iter().enumerate() {
+                if own.unsigned_abs() >= (1 << 47) - 1 {
+                    assert!(got.saturated > 0);
+                    continue;
+                }
+                let mut moved = pose.clone();
+                moved[usize::from(*point)][axis] += 1;
+                let want = exact_volume(&form, &moved) - &start;
+                let error = (BigRational::from(BigInt::from(*own)) * &unit - want).abs();
+                let kind = usize::from(place == 0);
+                if kind == 1 && got.saturated > 0 {
+                    continue;
+                }
+                let part = error.to_f64().unwrap() / bound[kind];
+                assert!(
+                    part <= 1.0,
+                    "pose {number}, point {point}: {part} of the bound"
+                );
+                worst[kind] = worst[kind].max(part);
+            }
+        }
+    }
+    println!("at most {worst:.2?} of the gradient's bounds");
+    assert!(worst[0] > 1e-3, "the bound says something: {worst:?}");
+}
+
 /// A section gives the parts back, and is refused if a byte is missing, too many or misplaced.
 #[test]
 fn sections_are_read_in_place() {

@@ -242,6 +242,69 @@ impl DeviceForm {
         (from_differences + from_weights + from_result) * unit
     }
 
+    /// How far a coordinate of the device's gradient can be from the form's, in squares of the coordinates' last place,
+    /// for poses as in [`volume_bound`](Self::volume_bound): of every point but the base, and of the base, whose gradient is
+    /// minus the sum of the others. Coordinates that were clamped are not meant.
+    ///
+    /// Differences are off by a half each; doubled `n` times they fill 30 bits, and cross products are rounded by `2^31`.
+    /// A cross product has two products of numbers of the two other axes. A point that is the third of a triple gets the
+    /// weight times a rounded product; the first and second of a pair get the product with the pair's weighted
+    /// sum, which is rounded by `2^pair_bits`, and rounded once more. The result is rounded to its unit.
+    #[must_use]
+    pub fn gradient_bound(&self, reach: [f64; 3]) -> [f64; 2] {
+        let power = |exponent: i32| 2.0_f64.powi(exponent);
+        let small = |bits: u32| i32::try_from(bits).unwrap_or_default();
+        let step = power(small(self.difference_shift));
+        let greatest = reach.iter().fold(0.0_f64, |most, own| most.max(*own)) / step + 0.5;
+        // A pose of less reach is doubled more often, and its products are rounded finer.
+        let doublings = (30 - exponent(greatest)).clamp(0, 30);
+        let scale = power(doublings);
+        let (limits, half) = (reach.map(|own| own / step * scale), scale / 2.0);
+        let area = power(31);
+        let (weights, thirds, pairs) = self.shares();
+        let mut others = 0.0_f64;
+        let mut base = 0.0_f64;
+        for (b, c) in [(1, 2), (2, 0), (0, 1)] {
+            let (b, c) = (limits[b], limits[c]);
+            let product = 2.0 * ((b + half) * (c + half) - b * c) / area;
+            let of_sum = (b + c + 2.0 * half) / 2.0 / power(31 - small(self.pair_bits)) + 0.5;
+            let of_weights = self.rounding * 2.0 * b * c / area;
+            let mut total = 0.0;
+            for (place, weight) in weights.iter().enumerate() {
+                let own =
+                    weight * product + thirds[place] / 2.0 + pairs[place] * of_sum + of_weights;
+                let back = power(31 + 2 * small(self.difference_shift) - self.weight_bits);
+                let own = own * back / (scale * scale) + self.gradient_unit() / 2.0;
+                others = others.max(own);
+                total += own;
+            }
+            base = base.max(total);
+        }
+        [others, base]
+    }
+
+    /// For each point but the base: the magnitudes of the weights of its triples, of those that it is the third of, and the
+    /// number of pairs that it is in.
+    fn shares(&self) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+        let count = self.points.len().saturating_sub(1);
+        let mut shares = (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
+        let (weights, thirds, pairs) = (&mut shares.0, &mut shares.1, &mut shares.2);
+        for (pair, range) in self.pairs.iter().zip(self.pair_starts.windows(2)) {
+            let taps = range[0] as usize..range[1] as usize;
+            let [first, second] = pair.map(usize::from);
+            pairs[first] += 1.0;
+            pairs[second] += 1.0;
+            for (third, weight) in self.thirds[taps.clone()].iter().zip(&self.weights[taps]) {
+                let (third, weight) = (usize::from(*third), f64::from(*weight).abs());
+                thirds[third] += weight;
+                for place in [first, second, third] {
+                    weights[place] += weight;
+                }
+            }
+        }
+        shares
+    }
+
     /// The greatest differences to the base along each axis, in last places: the reach of a pose.
     #[must_use]
     pub fn reach(&self, pose: &[[i32; 3]]) -> [f64; 3] {
