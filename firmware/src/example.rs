@@ -2,7 +2,7 @@
 
 /// Includes a baked bundle, such as `"/controller.oct"`, and evaluates to its bytes, aligned to 8 bytes.
 ///
-/// A macro, for the reason of [`include_example`].
+/// A macro, for the same reason as `include_example!`.
 #[macro_export]
 macro_rules! include_baked {
     ($file:literal) => {{
