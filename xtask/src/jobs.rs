@@ -202,6 +202,14 @@ pub fn verify(cases: u32, seed: u32) -> Result<(), Failure> {
                 .run()
         })?;
     }
+    steps.step("volumes against polyhedra of six levels", || {
+        let test = ["test", "--profile", "proof", "--package", "octruss-bake"];
+        Program::cargo()
+            .args(test)
+            .args(["--test", "neighbourhood_forms", "--test", "volume"])
+            .args(["--", "--ignored"])
+            .run()
+    })?;
     steps.step("every bit of the demo's bundle", || {
         proof_test(&["bit_flips"])
             .args(["--", "--ignored", "--nocapture"])

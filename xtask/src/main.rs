@@ -28,7 +28,8 @@ struct Arguments {
 enum Job {
     /// Installs what is missing: Rust targets and components, the emulator
     Setup,
-    /// Bakes the example finger, bends it on an emulated Cortex-M4 and checks every bit
+    /// Bakes the examples, bends the finger, drives the controller and blows at the palm on emulated boards, and checks
+    /// every bit
     Demo,
     /// Runs the tests: on the host, then on emulated Cortex-M4 and Cortex-M7 processors
     Test,

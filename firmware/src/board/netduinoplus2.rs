@@ -45,6 +45,8 @@ const TIM2_INTERRUPT: i16 = 28;
 
 /// Set once the peripherals have been handed out.
 static TAKEN: AtomicBool = AtomicBool::new(false);
+/// The count of TIM2 when its last tick was served.
+static COUNT: AtomicU32 = AtomicU32::new(0);
 /// Ticks of TIM2 since the start.
 static TICKS: AtomicU32 = AtomicU32::new(0);
 
@@ -129,7 +131,9 @@ fn supply_clocks() {
 pub(crate) fn on_interrupt(number: i16) -> bool {
     match number {
         TIM2_INTERRUPT => {
-            Timer::new(TIM2).clear_interrupt();
+            let mut timer = Timer::new(TIM2);
+            timer.clear_interrupt();
+            COUNT.store(timer.count.read(), Ordering::Relaxed);
             TICKS.fetch_add(1, Ordering::Relaxed);
         }
         USART1_INTERRUPT => receive(),
@@ -379,8 +383,12 @@ impl Tick for PeriodicTimer {
 
     fn elapsed_us(&self) -> u32 {
         // The emulator's count goes on where the part's begins again.
-        let period = self.timer.reload.read().saturating_add(1);
-        (self.timer.count.read() % period) / TIMER_CLOCKS_A_MICROSECOND
+        let since = self
+            .timer
+            .count
+            .read()
+            .wrapping_sub(COUNT.load(Ordering::Relaxed));
+        since / TIMER_CLOCKS_A_MICROSECOND
     }
 }
 
