@@ -14,8 +14,9 @@ bud's; 8 below and 8 above round the crown; then for each frond 4 sections of 4 
 """
 
 import math
-import os
 from pathlib import Path
+
+from make_finger import number, write_whole
 
 FOLDER = Path(__file__).resolve().parent
 HEXAHEDRON, PRISM = 5, 6  # Gmsh's numbers of element types
@@ -437,20 +438,6 @@ def write_springs(path):
 
 
 # -----------------------------------------------------------------------------------------------
-
-
-def write_whole(path, lines):
-    """Writes a text file so that `path` never holds a part of it."""
-    part = path.with_name(path.name + ".part")
-    with open(part, "w", encoding="ascii", newline="\n") as file:
-        file.write("\n".join(lines) + "\n")
-    os.replace(part, path)
-
-
-def number(value):
-    """A number with at most four decimals, without trailing zeros or a negative zero."""
-    text = f"{value:.4f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
 
 
 def main():

@@ -178,6 +178,7 @@ fn volumes_are_the_limits_of_polyhedra() {
 }
 
 #[test]
+// Off in the quick suite, where it would be the longest test by far: `cargo xtask verify` runs it.
 #[ignore = "six levels at every genus: cargo xtask verify"]
 fn volumes_are_the_limits_of_polyhedra_of_six_levels() {
     refine_polyhedra([6; 3]);

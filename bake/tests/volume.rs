@@ -237,6 +237,7 @@ fn polyhedra_of_every_genus_converge_to_the_volume() {
 }
 
 #[test]
+// Off in the quick suite, where it would be the longest test by far: `cargo xtask verify` runs it.
 #[ignore = "six levels at every genus: cargo xtask verify"]
 fn polyhedra_of_six_levels_converge_to_the_volume() {
     refine_polyhedra([6; 3]);

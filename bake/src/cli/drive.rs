@@ -80,9 +80,8 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         None => None,
     };
     let plan = plan(arguments, &bundle, &mirror, recorded.as_deref())?;
-    let parts = mirror.parts();
     let bits = bundle.header().fraction_bits.get();
-    let mut collector = Collector::new(parts.volume.as_ref(), bits);
+    let mut collector = Collector::new(mirror.parts(), bits);
     let line = open(arguments)?;
     let (lines, is_on_device) = match (line, &recorded) {
         (Some(port), _) => {

@@ -78,12 +78,6 @@ impl<'a, 'm> Mirror<'a, 'm> {
         self.first.as_deref()
     }
 
-    /// The tick that comes next.
-    #[must_use]
-    pub fn tick(&self) -> u32 {
-        self.tick
-    }
-
     /// Lets commands take effect and moves on by a tick.
     pub fn advance<'c>(&mut self, commands: impl IntoIterator<Item = &'c Command>) -> Moved {
         for command in commands {

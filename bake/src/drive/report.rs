@@ -1,7 +1,7 @@
 //! What a run came to.
 
 use super::mirror::Mirror;
-use octruss::enclosed::VolumeModes;
+use octruss_firmware::controller::Parts;
 use octruss_firmware::link::{Faults, Telemetry};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -31,6 +31,10 @@ pub struct Report {
     pub last_effector_error: f64,
     /// Ticks on which the pose was held.
     pub held_ticks: u32,
+    /// Frames that the device refused.
+    pub refused: u32,
+    /// Frames that came from the device and were no telemetry.
+    pub spoilt: u64,
     /// Faults that the device counted, those that are not zero.
     pub faults: BTreeMap<&'static str, u32>,
 }
@@ -44,13 +48,10 @@ pub struct Collector {
 }
 
 impl Collector {
-    /// For a bundle with so many fraction bits.
+    /// For the controller of a bundle with so many fraction bits.
     #[must_use]
-    pub fn new(volume: Option<&VolumeModes<'_>>, fraction_bits: u32) -> Self {
-        let rest_volume = volume.and_then(|volume| {
-            let amplitudes = vec![0; volume.modes()];
-            volume.volume(&amplitudes).ok()
-        });
+    pub fn new(parts: &Parts<'_>, fraction_bits: u32) -> Self {
+        let rest_volume = parts.volume.map(|_| parts.rest_volume());
         Collector {
             report: Report {
                 volume_error: rest_volume.map(|_| 0.0),
@@ -91,6 +92,8 @@ impl Collector {
         };
         report.effector_error = report.effector_error.max(length);
         report.last_effector_error = length;
+        let refused = record.faults.refused();
+        report.refused = refused.saturating_sub(first.faults.refused());
         report.held_ticks += record.flags & Telemetry::HELD;
         let counts = record
             .faults
@@ -108,6 +111,11 @@ impl Collector {
     /// A tick of a replay was not as it was recorded.
     pub fn not_as_recorded(&mut self) {
         self.report.not_as_recorded += 1;
+    }
+
+    /// So many frames from the device were no telemetry.
+    pub fn spoilt(&mut self, count: u64) {
+        self.report.spoilt = count;
     }
 
     /// The figures, with what a mirror saw.
@@ -156,6 +164,12 @@ impl Report {
             self.effector_error, self.last_effector_error
         ));
         lines.push(format!("busy        at most {} us a tick", self.busy_us));
+        if self.spoilt != 0 {
+            lines.push(format!(
+                "line        {} frames from the device were spoilt",
+                self.spoilt
+            ));
+        }
         if self.held_ticks != 0 {
             lines.push(format!("held        on {} ticks", self.held_ticks));
         }

@@ -116,6 +116,7 @@ pub fn run(
         each(&record, collector, session)?;
         lines.push(Line::of(&record, commands));
         if record.tick >= plan.last {
+            collector.spoilt(session.spoilt());
             return Ok(lines);
         }
         credit = (credit + BYTES_A_RECORD).min(BYTES_AT_ONCE);

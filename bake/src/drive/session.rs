@@ -130,22 +130,6 @@ impl Session {
             }
         }
     }
-
-    /// Whether a record waits to be [received](Self::receive).
-    pub fn try_receive(&mut self) -> Result<Option<Telemetry>> {
-        loop {
-            match self.records.try_recv() {
-                Ok(Heard::Record(record)) => return Ok(Some(*record)),
-                Ok(Heard::Spoilt) => self.spoilt += 1,
-                Ok(Heard::End(why)) => {
-                    return Err(Error::new(format!(
-                        "the line to the controller has ended: {why}"
-                    )));
-                }
-                Err(_) => return Ok(None),
-            }
-        }
-    }
 }
 
 impl Drop for Session {

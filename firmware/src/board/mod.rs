@@ -7,7 +7,10 @@
 //! - `Board::serial`: an `embedded_io::Write` and `embedded_io::Read`;
 //! - `Board::delay`: an `embedded_hal::delay::DelayNs`;
 //! - `Board::tick`: a [`Tick`](crate::tick::Tick), the fixed period of the control loop;
+//! - `Board::serial.listen(filler)`: from then on an interrupt puts the bytes that arrive into a ring;
 //! - `on_interrupt(number)`: handles one of the board's own interrupts, false if it is not one.
+
+mod received;
 
 #[cfg(feature = "board-mps2")]
 mod mps2;

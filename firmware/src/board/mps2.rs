@@ -4,17 +4,16 @@
 //! Registers are those of the Cortex-M System Design Kit (Arm DDI 0479) and of the application
 //! notes' memory maps. Everything runs from the one 25 MHz clock.
 
-use core::cell::RefCell;
 use core::convert::Infallible;
 use core::ptr;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use cortex_m::interrupt::Mutex;
 use cortex_m::peripheral::NVIC;
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin};
 use embedded_io::{ErrorType, Read, Write};
 
+use super::received;
 use crate::link::Filler;
 use crate::tick::Tick;
 
@@ -30,9 +29,6 @@ const FPGA_IO: usize = 0x4002_8000;
 
 /// The interrupt of serial port 0 that says that a byte has arrived.
 const RECEIVE_INTERRUPT: i16 = 0;
-
-/// Where the bytes go that arrive on serial port 0.
-static RECEIVED: Mutex<RefCell<Option<Filler<'static>>>> = Mutex::new(RefCell::new(None));
 
 /// The interrupt of timer 0.
 const TIMER0_INTERRUPT: i16 = 8;
@@ -117,14 +113,7 @@ pub(crate) fn on_interrupt(number: i16) -> bool {
 fn receive() {
     Register::new(UART0, 0x0c).write(Serial::RECEIVED_INTERRUPT);
     let mut serial = Serial::at();
-    cortex_m::interrupt::free(|section| {
-        let mut filler = RECEIVED.borrow(section).borrow_mut();
-        while let Some(byte) = serial.take() {
-            if let Some(filler) = filler.as_mut() {
-                filler.put(byte);
-            }
-        }
-    });
+    received::take_all(|| serial.take());
 }
 
 /// An LED.
@@ -185,7 +174,7 @@ impl Serial {
 
     /// From here on an interrupt puts the bytes that arrive into `filler`; they can no longer be read from here.
     pub fn listen(&mut self, filler: Filler<'static>) {
-        cortex_m::interrupt::free(|section| RECEIVED.borrow(section).replace(Some(filler)));
+        received::listen(filler);
         let enabled = Self::TRANSMIT_ENABLE | Self::RECEIVE_ENABLE | Self::RECEIVE_INTERRUPT_ENABLE;
         Register::new(UART0, 0x08).write(enabled);
         // SAFETY: no critical section relies on this interrupt being masked.

@@ -4,17 +4,16 @@
 //! serial port is USART1 on the pins PB6 and PB7, the LED is the board's blue one on PA10, and the timers
 //! are TIM2 and TIM5, which have 32 bits.
 
-use core::cell::RefCell;
 use core::convert::Infallible;
 use core::ptr;
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use cortex_m::interrupt::Mutex;
 use cortex_m::peripheral::NVIC;
 use embedded_hal::delay::DelayNs;
 use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin};
 use embedded_io::{ErrorType, Read, Write};
 
+use super::received;
 use crate::link::Filler;
 use crate::tick::Tick;
 
@@ -36,9 +35,6 @@ const RCC: usize = 0x4002_3800;
 
 /// The interrupt of USART1.
 const USART1_INTERRUPT: i16 = 37;
-
-/// Where the bytes go that arrive on USART1.
-static RECEIVED: Mutex<RefCell<Option<Filler<'static>>>> = Mutex::new(RefCell::new(None));
 
 /// The interrupt of TIM2.
 const TIM2_INTERRUPT: i16 = 28;
@@ -145,14 +141,7 @@ pub(crate) fn on_interrupt(number: i16) -> bool {
 /// Takes the bytes that have arrived. Reading the data clears the interrupt, an overrun's too.
 fn receive() {
     let mut serial = Serial::at();
-    cortex_m::interrupt::free(|section| {
-        let mut filler = RECEIVED.borrow(section).borrow_mut();
-        while let Some(byte) = serial.take() {
-            if let Some(filler) = filler.as_mut() {
-                filler.put(byte);
-            }
-        }
-    });
+    received::take_all(|| serial.take());
 }
 
 /// An LED.
@@ -220,7 +209,7 @@ impl Serial {
 
     /// From here on an interrupt puts the bytes that arrive into `filler`; they can no longer be read from here.
     pub fn listen(&mut self, filler: Filler<'static>) {
-        cortex_m::interrupt::free(|section| RECEIVED.borrow(section).replace(Some(filler)));
+        received::listen(filler);
         let enable = Self::RECEIVE_INTERRUPT_ENABLE;
         Register::new(USART1, 0x0c).change(enable, enable);
         // SAFETY: no critical section relies on this interrupt being masked.

@@ -130,7 +130,10 @@ impl<'a, 'm> Controller<'a, 'm> {
                 return true;
             }
             let due = due.max(*tick);
-            waiting.put(due, sequence, command)
+            // A restart on this tick is one of its commands, all of which telemetry names.
+            let noted = if due == *tick { taken.count } else { 0 };
+            let most = COMMANDS_A_TICK.saturating_sub(usize::from(noted));
+            waiting.put(due, sequence, command, most)
         });
     }
 

@@ -81,16 +81,11 @@ impl<'a, 'm> Motion<'a, 'm> {
         if memory.pose.len() != parts.actuation.control_points() {
             return None;
         }
-        let at_rest = [0; MOST_ACTUATORS];
-        let rest_volume = parts.volume.and_then(|volume| {
-            let amplitudes = at_rest.get(..volume.modes())?;
-            volume.volume(amplitudes).ok()
-        });
         let mut motion = Motion {
             state: InverseState::new(&parts.solver),
+            rest_volume: parts.rest_volume(),
             parts,
             memory,
-            rest_volume: rest_volume.unwrap_or(0),
             follow: Follow::Goals,
             goals: [[0; 3]; MOST_EFFECTORS],
             targets: [0; MOST_ACTUATORS],
@@ -187,14 +182,19 @@ impl<'a, 'm> Motion<'a, 'm> {
             ..Moved::default()
         };
         self.silent_for = self.silent_for.saturating_add(1);
-        if !moved.is_held {
-            match self.follow {
-                Follow::Goals => self.follow_goals(&mut moved),
-                Follow::Targets => self.follow_targets(),
-                Follow::Nothing => {}
-            }
+        let follow = if moved.is_held {
+            Follow::Nothing
+        } else {
+            self.follow
+        };
+        match follow {
+            Follow::Goals => self.follow_goals(&mut moved),
+            Follow::Targets => self.follow_targets(),
+            Follow::Nothing => {}
         }
-        moved.volume = self.volume();
+        if follow != Follow::Goals {
+            moved.volume = self.parts.volume_at(self.state.amplitudes());
+        }
         self.pose(&mut moved);
         self.deform(&mut moved);
         let parts = self.parts.solver.parts();
@@ -213,7 +213,8 @@ impl<'a, 'm> Motion<'a, 'm> {
         // Goals and modes have the right numbers: `Parts::open` saw to it.
         let ticked = goals.map(|goals| self.parts.solver.tick(goals, volume, &mut self.state));
         if let Some(Ok(report)) = ticked {
-            moved.gave_up = report.gave_up.bits();
+            // That of the amplitudes which are kept; 0 if there is none.
+            (moved.gave_up, moved.volume) = (report.gave_up.bits(), report.volume);
         }
     }
 
@@ -230,14 +231,6 @@ impl<'a, 'm> Motion<'a, 'm> {
             *own = target.clamp(here - rate, here + rate) as i32;
         }
         self.state.set_amplitudes(&amplitudes);
-    }
-
-    fn volume(&self) -> i64 {
-        let volume = self.parts.volume.and_then(|volume| {
-            let amplitudes = self.state.amplitudes().get(..volume.modes())?;
-            volume.volume(amplitudes).ok()
-        });
-        volume.unwrap_or(0)
     }
 
     fn pose(&mut self, moved: &mut Moved) {

@@ -2,7 +2,7 @@
 
 use octruss::bundle::{Bundle, BundleError};
 use octruss::control::actuation::Actuation;
-use octruss::control::inverse::Inverse;
+use octruss::control::inverse::{Inverse, MOST_ACTUATORS};
 use octruss::deform::Table;
 use octruss::enclosed::VolumeModes;
 
@@ -48,6 +48,22 @@ impl core::fmt::Display for OpenError {
 impl core::error::Error for OpenError {}
 
 impl<'a> Parts<'a> {
+    /// The volume at rest, that is held; 0 if the bundle has none.
+    #[must_use]
+    pub fn rest_volume(&self) -> i64 {
+        self.volume_at(&[0; MOST_ACTUATORS])
+    }
+
+    /// The volume at amplitudes; 0 if the bundle has none.
+    pub(super) fn volume_at(&self, amplitudes: &[i32; MOST_ACTUATORS]) -> i64 {
+        // A solver has as many modes as the volume, and at most as many as there are amplitudes: `open` saw to it.
+        let volume = self.volume.and_then(|volume| {
+            let amplitudes = amplitudes.get(..volume.modes())?;
+            volume.volume(amplitudes).ok()
+        });
+        volume.unwrap_or(0)
+    }
+
     /// Takes the parts out of a bundle.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 
-use crate::link::{COMMANDS_A_TICK, Command};
+use crate::link::Command;
 
 /// Commands that wait at most: enough for a host that sends 16 ticks ahead, with goals of all effectors on each.
 pub const WAITING_COMMANDS: usize = 64;
@@ -27,15 +27,15 @@ impl Queue {
         Queue(Vec::new())
     }
 
-    /// Puts a command in. False if there is no room, or if its tick has as many as it can take.
-    pub(super) fn put(&mut self, due: u32, sequence: u16, command: Command) -> bool {
+    /// Puts a command in. False if there is no room, or if `most` wait for its tick.
+    pub(super) fn put(&mut self, due: u32, sequence: u16, command: Command, most: usize) -> bool {
         let on_the_same_tick = self.0.iter().filter(|waiting| waiting.due == due).count();
         let waiting = Waiting {
             due,
             sequence,
             command,
         };
-        on_the_same_tick < COMMANDS_A_TICK && self.0.push(waiting).is_ok()
+        on_the_same_tick < most && self.0.push(waiting).is_ok()
     }
 
     /// Hands the commands of `tick` to `take`, the first that came first, and forgets them.
